@@ -1,0 +1,7 @@
+//! Terrarium: a batch renderer for light that passes through glass and water.
+//!
+//! The modules are the stages of the pipeline, in the order in which a render passes through
+//! them; a module names only modules above it (`tests/layers.rs` enforces that).
+#![forbid(unsafe_code)]
+
+pub mod math;
