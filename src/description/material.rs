@@ -1,0 +1,99 @@
+//! Materials: layered from the outside in, so that no values can gain energy.
+//!
+//! L = km·L_mirror + (1−km)·[ kt·(F·L_reflected + (1−F)·L_refracted) + (1−kt)·L_diffuse ] + highlight,
+//! with km `reflection` and kt `transmission`.
+
+use super::{Rgb, Source};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a surface is made of. The default is black.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Material {
+    /// Albedo of the Lambert layer, 0 to 1.
+    #[serde(skip_serializing_if = "Source::is_zero")]
+    pub diffuse: Source,
+    /// Weight of the normalised Phong highlight (n+2)/2π·cosⁿα, 0 to 1.
+    #[serde(skip_serializing_if = "Source::is_zero")]
+    pub specular: Source,
+    /// Phong exponent n, 1 to 1e6. Without it: 50.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shininess: Option<f64>,
+    /// Mirror weight km, 0 to 1.
+    #[serde(skip_serializing_if = "Source::is_zero")]
+    pub reflection: Source,
+    /// Weight kt of the dielectric layer, 0 to 1.
+    #[serde(skip_serializing_if = "Source::is_zero")]
+    pub transmission: Source,
+    /// Index of refraction, 0.05 to 10, or a name. Without it: 1.5.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ior: Option<Ior>,
+    /// Beer–Lambert absorption inside, per metre; needs `transmission`.
+    #[serde(skip_serializing_if = "Rgb::is_zero")]
+    pub absorption: Rgb,
+    /// Of overlapping transmissive objects the one of higher priority counts (Schmidt & Budge 2002).
+    #[serde(skip_serializing_if = "is_zero_priority")]
+    pub priority: i32,
+    /// Emitted radiance, W·m⁻²·sr⁻¹.
+    #[serde(skip_serializing_if = "Source::is_zero")]
+    pub emission: Source,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_map: Option<NormalMap>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bump_map: Option<BumpMap>,
+}
+
+fn is_zero_priority(p: &i32) -> bool {
+    *p == 0
+}
+
+/// A tangent-space normal map: the texture's (r, g, b) in [0, 1] is the normal 2·(r, g, b) − 1, with r
+/// along ∂p/∂u, g along ∂p/∂v and b along the surface normal. Its image is read as linear.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalMap {
+    pub texture: String,
+    /// Scales the tilt: 0 flat, 1 as drawn; 0 to 10.
+    #[serde(default = "one")]
+    pub strength: f64,
+}
+
+/// Blinn's bump map: the texture's luminance times `height_m` displaces the surface in thought.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BumpMap {
+    pub texture: String,
+    /// Height of white above black, metres.
+    pub height_m: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// An index of refraction, as a number or by name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Ior {
+    Number(f64),
+    Name(String),
+}
+
+/// Indices of refraction by name, at the sodium D line (589 nm) near 20 °C.
+pub const NAMED_IOR: &[(&str, f64)] = &[
+    ("vacuum", 1.0),
+    ("air", 1.000_277),
+    ("ice", 1.31),
+    ("water", 1.333),
+    ("ethanol", 1.361),
+    ("fused_quartz", 1.458),
+    ("acrylic", 1.491),
+    ("glass", 1.5),
+    ("crown_glass", 1.517),
+    ("amber", 1.546),
+    ("flint_glass", 1.62),
+    ("sapphire", 1.77),
+    ("zircon", 1.923),
+    ("diamond", 2.417),
+];

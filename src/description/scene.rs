@@ -1,0 +1,34 @@
+//! The whole scene: the root of every scene file.
+
+use super::{Antialiasing, Camera, Image, Light, Material, NameMap, Object, Render, Rgb, Texture};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A scene. Only `camera` has no default, and a file that is only included may leave it out too.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scene {
+    /// Scene files whose textures, materials, definitions, lights and objects are taken in; paths
+    /// relative to this file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub include: Vec<String>,
+    pub camera: Option<Camera>,
+    pub image: Image,
+    pub antialiasing: Antialiasing,
+    pub render: Render,
+    /// Radiance seen by eye rays that leave the scene where no environment light shines. Lights nothing.
+    pub background: Rgb,
+    /// Classic constant ambient radiance: every diffuse surface reflects `diffuse · ambient`.
+    pub ambient: Rgb,
+    #[serde(skip_serializing_if = "NameMap::is_empty")]
+    pub textures: NameMap<Texture>,
+    #[serde(skip_serializing_if = "NameMap::is_empty")]
+    pub materials: NameMap<Material>,
+    #[serde(skip_serializing_if = "NameMap::is_empty")]
+    pub lights: NameMap<Light>,
+    /// Objects that are not placed by themselves: `instance` and `scatter` name them.
+    #[serde(skip_serializing_if = "NameMap::is_empty")]
+    pub definitions: NameMap<Object>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub objects: Vec<Object>,
+}

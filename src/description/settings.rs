@@ -1,0 +1,72 @@
+//! Image size and exposure, antialiasing, and how much is rendered.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The image. Width and height in pixels, 1 to 65536.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Image {
+    pub width: u32,
+    pub height: u32,
+    /// Exposure of PNG output in stops: radiance is multiplied by 2^exposure_ev before the sRGB curve.
+    /// EXR output is never scaled.
+    pub exposure_ev: f64,
+    /// Bits a PNG channel: 8 or 16.
+    pub png_bits: u8,
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Image { width: 800, height: 600, exposure_ev: 0.0, png_bits: 8 }
+    }
+}
+
+/// Where in a pixel its samples lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Antialiasing {
+    /// One sample at the pixel's centre.
+    None,
+    /// n × n samples on a regular grid; n from 1 to 64.
+    Grid(u32),
+    /// Corner subdivision where neighbouring corners differ.
+    Adaptive {
+        /// Relative luminance contrast above which a cell is divided: (max − min) / (max + min + 2·floor); 0 to 1.
+        #[serde(default = "default_threshold")]
+        threshold: f64,
+        /// Subdivisions at most: a pixel is never divided finer than 2^depth × 2^depth; 1 to 8.
+        #[serde(default = "default_depth")]
+        depth: u32,
+    },
+    /// One well-distributed sample a pixel and pass.
+    #[default]
+    Progressive,
+}
+
+fn default_threshold() -> f64 {
+    0.05
+}
+
+fn default_depth() -> u32 {
+    3
+}
+
+/// How much is rendered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Render {
+    /// Independent passes whose mean is the image. Without it: 64 for progressive antialiasing, else 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passes: Option<u32>,
+    /// Seed of every random value.
+    pub seed: u64,
+    /// Specular events in a row after which a path is cut (and counted as cut); 1 to 10000.
+    pub max_depth: u32,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Render { passes: None, seed: 0, max_depth: 32 }
+    }
+}
