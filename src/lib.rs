@@ -6,4 +6,6 @@
 
 pub mod math;
 
+pub mod optics;
+
 pub mod description;

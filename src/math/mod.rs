@@ -3,6 +3,13 @@
 //! Nothing here knows of light. Everything is a pure function of its arguments.
 
 mod aabb;
+mod frame;
+mod placement;
+pub mod random;
+mod ray;
 
-pub use aabb::Aabb;
+pub use aabb::{Aabb, round_down, round_up};
+pub use frame::Frame;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
+pub use placement::Placement;
+pub use ray::Ray;

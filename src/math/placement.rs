@@ -1,0 +1,85 @@
+//! Affine placements of objects in the world, in double precision, with their inverses.
+
+use super::Ray;
+use glam::{DAffine3, DMat3, DVec3};
+
+/// Where an object stands: the map from its own space to the world's and back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    pub world_from_object: DAffine3,
+    pub object_from_world: DAffine3,
+    /// sign(det)·cofactors: takes outward normals to outward normals, mirrored placements included.
+    normal_matrix: DMat3,
+    /// The factor of volume, with its sign (negative for mirrored placements).
+    det: f64,
+    /// Largest factor of length: a bound (Frobenius norm) on ‖M‖.
+    stretch: f64,
+}
+
+impl Placement {
+    pub const IDENTITY: Placement = Placement {
+        world_from_object: DAffine3::IDENTITY,
+        object_from_world: DAffine3::IDENTITY,
+        normal_matrix: DMat3::IDENTITY,
+        det: 1.0,
+        stretch: 1.0,
+    };
+
+    /// `None` for a map that cannot be inverted: |det| < 1e-30·‖M‖³, or not finite.
+    pub fn new(world_from_object: DAffine3) -> Option<Placement> {
+        let m = world_from_object.matrix3;
+        let det = m.determinant();
+        let norm = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).length();
+        if !world_from_object.is_finite() || !(det.abs() >= 1e-30 * norm * norm * norm) || norm == 0.0 {
+            return None;
+        }
+        let cofactors =
+            DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+        Some(Placement {
+            world_from_object,
+            object_from_world: world_from_object.inverse(),
+            normal_matrix: cofactors * det.signum(),
+            det,
+            stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },
+        })
+    }
+
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        self.world_from_object.transform_point3(p)
+    }
+
+    pub fn vector(&self, v: DVec3) -> DVec3 {
+        self.world_from_object.transform_vector3(v)
+    }
+
+    /// The unit world normal for an object-space normal of any length but zero.
+    pub fn normal(&self, n: DVec3) -> DVec3 {
+        (self.normal_matrix * n).normalize()
+    }
+
+    pub fn local_point(&self, p: DVec3) -> DVec3 {
+        self.object_from_world.transform_point3(p)
+    }
+
+    pub fn local_vector(&self, v: DVec3) -> DVec3 {
+        self.object_from_world.transform_vector3(v)
+    }
+
+    /// The ray in object space. Its direction is not normalised, so that t is the world's.
+    pub fn local_ray(&self, ray: &Ray) -> Ray {
+        Ray { origin: self.local_point(ray.origin), dir: self.local_vector(ray.dir) }
+    }
+
+    pub fn mirrored(&self) -> bool {
+        self.det < 0.0
+    }
+
+    pub fn det(&self) -> f64 {
+        self.det
+    }
+
+    /// An upper bound on the factor by which a length grows on the way to the world.
+    pub fn stretch(&self) -> f64 {
+        self.stretch
+    }
+}
