@@ -9,3 +9,19 @@ pub mod math;
 pub mod optics;
 
 pub mod description;
+
+pub mod plan;
+
+pub mod build;
+
+pub mod scatter;
+
+pub mod index;
+
+pub mod trace;
+
+pub mod film;
+
+pub mod output;
+
+pub mod render;

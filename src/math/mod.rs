@@ -4,12 +4,16 @@
 
 mod aabb;
 mod frame;
+mod health;
 mod placement;
 pub mod random;
 mod ray;
+pub mod robust;
+pub mod sampling;
 
 pub use aabb::{Aabb, round_down, round_up};
 pub use frame::Frame;
+pub use health::{Health, Place, Rare};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 pub use placement::Placement;
 pub use ray::Ray;

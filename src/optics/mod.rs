@@ -3,6 +3,25 @@
 //!
 //! Directions `wo` (known) and `wi` (sampled) both point away from the surface.
 
+mod camera;
+mod emitter;
+pub mod environment;
+mod fresnel;
+mod material;
+mod mesh;
+mod shape;
 mod surface;
+pub mod texture;
 
+pub use camera::Camera;
+pub use emitter::{Emitter, EmitterKind, spot_falloff};
+pub use environment::{Environment, EnvironmentSample};
+pub use fresnel::{Interface, reflected, refracted};
+pub use material::{Material, MaterialId, Relief, TextureId, Weight};
+pub use mesh::TriangleMesh;
+pub use shape::{
+    AreaSample, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid, Sphere,
+    sample_triangle_direction, triangle_direction_pdf,
+};
 pub use surface::LocalSurface;
+pub use texture::{Texture, TexturePoint, bumped_normal, perturbed_normal_from_map};

@@ -1,0 +1,156 @@
+//! Textures are loaded, materials resolved. What no object's material names is not loaded.
+
+use super::BuildError;
+use super::images::{Images, Limits, TextureUse};
+use crate::description::{self, Ior, Material as Described, NAMED_IOR, Scene, Source};
+use crate::math::Vec3;
+use crate::optics::{Material, MaterialId, Relief, Texture, TextureId, Weight};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The scene's textures and materials.
+pub(super) struct Surfaces {
+    pub textures: Vec<Texture>,
+    pub materials: Vec<Material>,
+    ids: HashMap<String, MaterialId>,
+    /// The image files that were read, for the environment to read from too.
+    pub images: Images,
+}
+
+pub(super) fn rgb(c: &description::Rgb) -> Vec3 {
+    Vec3::new(c.0[0] as f32, c.0[1] as f32, c.0[2] as f32)
+}
+
+impl Surfaces {
+    pub fn load(scene: &Scene) -> Result<Surfaces, BuildError> {
+        let used = super::objects::used_materials(scene);
+        let images = Images::new(Path::new(""), Limits::default());
+        let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
+        let (mut materials, mut ids) = (Vec::new(), HashMap::new());
+        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(*name)) {
+            let material = textures.material(described)?;
+            check_energy(name, &material, &textures.list)?;
+            ids.insert(name.to_owned(), MaterialId(materials.len() as u32));
+            materials.push(material);
+        }
+        Ok(Surfaces { textures: textures.list, materials, ids, images: textures.images })
+    }
+
+    pub fn id(&self, name: &str) -> Result<MaterialId, BuildError> {
+        self.ids.get(name).copied().ok_or_else(|| BuildError::Invalid(format!("no material is named `{name}`")))
+    }
+
+    /// A material that only emits, for a light with an extent.
+    pub fn add_light(&mut self, radiance: Vec3, emits_back: bool) -> MaterialId {
+        self.materials.push(Material {
+            diffuse: Weight::ZERO,
+            specular: Weight::ZERO,
+            shininess: 1.0,
+            reflection: Weight::ZERO,
+            transmission: Weight::ZERO,
+            ior: 1.0,
+            absorption: Vec3::ZERO,
+            priority: 0,
+            emission: Weight::Constant(radiance),
+            emits_back,
+            relief: Vec::new(),
+            textured: false,
+        });
+        MaterialId(self.materials.len() as u32 - 1)
+    }
+}
+
+/// Textures are loaded when a material first names them.
+struct Textures<'a> {
+    scene: &'a Scene,
+    list: Vec<Texture>,
+    /// By name and by what its numbers are used for.
+    ids: HashMap<(String, TextureUse), TextureId>,
+    images: Images,
+}
+
+impl Textures<'_> {
+    fn id(&mut self, name: &str, usage: TextureUse) -> Result<TextureId, BuildError> {
+        if let Some(&id) = self.ids.get(&(name.to_owned(), usage)) {
+            return Ok(id);
+        }
+        let described = self
+            .scene
+            .textures
+            .get(name)
+            .ok_or_else(|| BuildError::Invalid(format!("no texture is named `{name}`")))?;
+        let texture = self.images.texture(described, usage)?;
+        let id = TextureId(self.list.len() as u32);
+        self.list.push(texture);
+        self.ids.insert((name.to_owned(), usage), id);
+        Ok(id)
+    }
+
+    fn weight(&mut self, source: &Source) -> Result<Weight, BuildError> {
+        Ok(match source {
+            Source::Constant(c) => Weight::Constant(rgb(c)),
+            Source::Texture(t) => Weight::Texture(self.id(&t.name, TextureUse::Color)?, rgb(&t.scale)),
+        })
+    }
+
+    fn material(&mut self, m: &Described) -> Result<Material, BuildError> {
+        let mut relief = Vec::new();
+        if let Some(map) = &m.bump_map {
+            relief.push(Relief::BumpMap { texture: self.id(&map.texture, TextureUse::Data)?, height: map.height_m });
+        }
+        if let Some(map) = &m.normal_map {
+            relief.push(Relief::NormalMap { texture: self.id(&map.texture, TextureUse::Data)?, strength: map.strength });
+        }
+        let weights = [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission];
+        let [diffuse, specular, reflection, transmission, emission] = weights.map(|w| self.weight(w));
+        let material = Material {
+            diffuse: diffuse?,
+            specular: specular?,
+            shininess: m.shininess.unwrap_or(50.0),
+            reflection: reflection?,
+            transmission: transmission?,
+            ior: ior(m.ior.as_ref())?,
+            absorption: rgb(&m.absorption),
+            priority: m.priority,
+            emission: emission?,
+            emits_back: true,
+            relief,
+            textured: false,
+        };
+        let textured = !material.relief.is_empty()
+            || [material.diffuse, material.specular, material.reflection, material.transmission, material.emission]
+                .iter()
+                .any(Weight::textured);
+        Ok(Material { textured, ..material })
+    }
+}
+
+fn ior(described: Option<&Ior>) -> Result<f64, BuildError> {
+    match described {
+        None => Ok(1.5),
+        Some(Ior::Number(n)) => Ok(*n),
+        Some(Ior::Name(name)) => NAMED_IOR
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|&(_, n)| n)
+            .ok_or_else(|| BuildError::Invalid(format!("no index of refraction is named `{name}`"))),
+    }
+}
+
+/// Refuses what could send back more light than it gets: km + (1−km)(kt + (1−kt)·kd) + ks > 1 for the
+/// brightest texels. Constants were checked with the scene.
+fn check_energy(name: &str, m: &Material, textures: &[Texture]) -> Result<(), BuildError> {
+    let [kd, ks, km, kt] = [m.diffuse, m.specular, m.reflection, m.transmission].map(|w| w.bound(textures));
+    let one = Vec3::ONE;
+    let total = (km + (one - km) * (kt + (one - kt) * kd) + ks).max_element();
+    // Room for the rounding of sums such as 0.8 + 0.2 and of texels that stand for 1.
+    if total <= 1.0 + 1e-5 {
+        return Ok(());
+    }
+    Err(BuildError::Invalid(format!(
+        "material `{name}` can send back {total:.3} of the light that it gets (reflection + (1 − reflection)·\
+         (transmission + (1 − transmission)·diffuse) + specular, at the brightest texels); lower `specular`, or \
+         scale a texture: texture(name: …, scale: {:.2})",
+        (1.0 / total * 100.0).floor() / 100.0
+    )))
+}

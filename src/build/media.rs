@@ -1,0 +1,151 @@
+//! Nested and touching dielectrics: which medium a point lies in.
+//!
+//! Every transmissive instance has a rank; where several overlap, the highest counts (Schmidt &
+//! Budge, Simple Nested Dielectrics in Ray Traced Images, JGT 7(2), 2002). Rank follows the
+//! material's priority, then the smaller volume, so that an object inside of another of like
+//! priority is itself. A path carries the set of ranks that it is inside of; entering and leaving are
+//! idempotent, so that a surface met twice does no harm.
+
+use super::world::World;
+use crate::math::{DVec3, Ray, Vec3};
+
+/// The inside of a transmissive instance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Medium {
+    pub instance: u32,
+    pub ior: f64,
+    /// 1/m.
+    pub absorption: Vec3,
+}
+
+/// Transmissive objects that may overlap at one point.
+const CAPACITY: usize = 12;
+
+/// The set of ranks that a point is inside of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MediaSet {
+    ranks: [u32; CAPACITY],
+    len: u8,
+}
+
+impl MediaSet {
+    /// The rank that counts; 0 is the surrounding vacuum.
+    pub fn top(&self) -> u32 {
+        self.entries().iter().copied().max().unwrap_or(0)
+    }
+
+    pub fn contains(&self, rank: u32) -> bool {
+        self.entries().contains(&rank)
+    }
+
+    /// The set after crossing a surface of `rank` inwards or outwards. `None` when too many objects
+    /// overlap to be kept track of.
+    pub fn crossed(mut self, rank: u32, inwards: bool) -> Option<MediaSet> {
+        let position = self.entries().iter().position(|&r| r == rank);
+        match (inwards, position) {
+            (true, None) if usize::from(self.len) == CAPACITY => return None,
+            (true, None) => {
+                self.ranks[usize::from(self.len)] = rank;
+                self.len += 1;
+            }
+            (false, Some(i)) => {
+                self.len -= 1;
+                self.ranks[i] = self.ranks[usize::from(self.len)];
+                self.ranks[usize::from(self.len)] = 0;
+            }
+            _ => {}
+        }
+        Some(self)
+    }
+
+    fn entries(&self) -> &[u32] {
+        &self.ranks[..usize::from(self.len)]
+    }
+}
+
+impl World {
+    /// The medium of a set's highest rank.
+    pub fn medium(&self, set: &MediaSet) -> (f64, Vec3) {
+        match set.top() {
+            0 => (1.0, Vec3::ZERO),
+            rank => {
+                let medium = &self.media[rank as usize - 1];
+                (medium.ior, medium.absorption)
+            }
+        }
+    }
+
+    /// The transmissive objects around a point: those whose first surface on the way out faces away,
+    /// by majority of three directions, so that no single edge decides.
+    pub fn media_at(&self, p: DVec3) -> MediaSet {
+        let directions =
+            [DVec3::new(0.36, 0.48, 0.8), DVec3::new(-0.64, 0.6, 0.48), DVec3::new(0.48, -0.8, -0.36)];
+        let mut set = MediaSet::default();
+        for (i, medium) in self.media.iter().enumerate() {
+            let votes = directions.iter().filter(|&&dir| self.leaves(medium.instance, p, dir)).count();
+            if votes >= 2 {
+                set = set.crossed(i as u32 + 1, true).unwrap_or(set);
+            }
+        }
+        set
+    }
+
+    fn leaves(&self, instance: u32, p: DVec3, dir: DVec3) -> bool {
+        let ray = Ray { origin: p, dir };
+        self.nearest_of(instance, &ray, f64::INFINITY)
+            .is_some_and(|hit| self.surface(&ray, &hit).ng.dot(dir) > 0.0)
+    }
+
+    /// Crossings of other transmissive instances within `tolerance` metres, along the normal, of the
+    /// surface point `p` of `instance` that the unit direction `dir` crosses: surfaces that coincide
+    /// with it. Calls `found(rank, inwards)` for each.
+    pub fn coincident(
+        &self,
+        p: DVec3,
+        ng: DVec3,
+        dir: DVec3,
+        instance: u32,
+        tolerance: f64,
+        mut found: impl FnMut(u32, bool),
+    ) {
+        let band = tolerance / dir.dot(ng).abs().max(1e-3);
+        let ray = Ray { origin: p - dir * band, dir };
+        let traversal = super::world::box_ray(&ray);
+        self.tree.nearest(&traversal, crate::math::round_up(2.0 * band), |other, _| {
+            let rank = self.instances[other as usize].rank;
+            if other != instance
+                && rank != 0
+                && let Some(hit) = self.nearest_of(other, &ray, 2.0 * band)
+            {
+                found(rank, self.surface(&ray, &hit).ng.dot(dir) < 0.0);
+            }
+            None
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entering_and_leaving_are_idempotent_and_never_underflow() {
+        let empty = MediaSet::default();
+        let glass = empty.crossed(2, true).expect("room");
+        assert_eq!(glass.crossed(2, true).expect("room"), glass);
+        assert_eq!(empty.crossed(2, false).expect("room"), empty);
+        let both = glass.crossed(1, true).expect("room");
+        assert_eq!(both.top(), 2);
+        assert_eq!(both.crossed(2, false).expect("room").top(), 1);
+        assert_eq!(glass.crossed(2, false).expect("room").top(), 0);
+    }
+
+    #[test]
+    fn more_overlaps_than_fit_are_reported() {
+        let mut set = MediaSet::default();
+        for rank in 1..=CAPACITY as u32 {
+            set = set.crossed(rank, true).expect("room");
+        }
+        assert_eq!(set.crossed(99, true), None);
+    }
+}

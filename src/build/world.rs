@@ -1,0 +1,170 @@
+//! The built world: placed geometry under one tree, and what a ray meets in it.
+//!
+//! Coordinates are metres from `World::origin`, a point near what the camera looks at, so that a
+//! scene far from its origin renders the same. Rays and hits are double precision; trees are
+//! traversed in single precision with every rounding bounded.
+
+use super::bvh::{BoxRay, Bvh, TriangleBvh};
+use super::media::Medium;
+use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
+use crate::optics::{Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Texture, TriangleMesh};
+
+/// Everything that rays need.
+pub struct World {
+    /// Where the renderer's coordinates begin, in the scene's.
+    pub origin: DVec3,
+    pub camera: Camera,
+    pub geometries: Vec<Geometry>,
+    pub instances: Vec<Instance>,
+    /// Materials by part, for each binding that instances name.
+    pub bindings: Vec<Vec<MaterialId>>,
+    pub tree: Bvh,
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub emitters: Vec<Emitter>,
+    pub environment: Option<Environment>,
+    /// Whether eye rays that leave the scene see the environment.
+    pub environment_visible: bool,
+    /// Insides of transmissive instances, by rank: a later one wins where several overlap.
+    pub media: Vec<Medium>,
+    /// Surfaces of transmissive instances that are closer together than this along the normal, in
+    /// metres, are one interface; 0 where none overlap.
+    pub coincidence: f64,
+    pub background: Vec3,
+    pub ambient: Vec3,
+    /// Names for the object-id layer and messages.
+    pub object_names: Vec<String>,
+}
+
+pub enum Geometry {
+    Shape(Shape),
+    Mesh(Mesh),
+}
+
+pub struct Mesh {
+    pub surface: TriangleMesh,
+    pub tree: TriangleBvh,
+    pub name: String,
+}
+
+/// One placed geometry.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    pub geometry: u32,
+    pub binding: u32,
+    pub placement: Placement,
+    /// Place in [`World::media`] plus one; 0 for what does not transmit.
+    pub rank: u32,
+    /// Index into [`World::object_names`].
+    pub object: u32,
+    /// Whether rays can meet it. Hidden lights only send light.
+    pub visible: bool,
+}
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    pub t: f64,
+    pub instance: u32,
+    /// Face of a shape, triangle of a mesh.
+    pub primitive: u32,
+    /// Barycentric coordinates on a triangle.
+    pub b: [f32; 3],
+}
+
+/// The rounding of a double-precision point to single precision, bounded.
+pub fn box_ray(ray: &Ray) -> BoxRay {
+    let origin = ray.origin.as_vec3();
+    let error = (ray.origin - origin.as_dvec3()).abs();
+    BoxRay::new(origin, Vec3::from(error.to_array().map(round_up)), ray.dir.as_vec3())
+}
+
+impl Geometry {
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        match self {
+            Geometry::Shape(shape) => shape.bounds(),
+            Geometry::Mesh(mesh) => {
+                let b = mesh.tree.bounds();
+                (b.min.as_dvec3(), b.max.as_dvec3())
+            }
+        }
+    }
+
+    /// The nearest hit with 0 < t < t_max of a ray in object space.
+    fn nearest(&self, local: &Ray, t_max: f64) -> Option<(f64, u32, [f32; 3])> {
+        match self {
+            Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
+            Geometry::Mesh(mesh) => mesh
+                .tree
+                .nearest(&box_ray(local), round_up(t_max))
+                .map(|h| (f64::from(h.t), h.triangle, h.b)),
+        }
+    }
+
+    fn any(&self, local: &Ray, t_max: f64) -> bool {
+        match self {
+            Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).is_some(),
+            Geometry::Mesh(mesh) => mesh.tree.any(&box_ray(local), t_max as f32),
+        }
+    }
+}
+
+impl World {
+    /// The nearest hit with 0 < t < t_max.
+    pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        self.tree.nearest(&box_ray(ray), round_up(t_max), |instance, _| {
+            let limit = best.map_or(t_max, |h| h.t);
+            let hit = self.nearest_of(instance, ray, limit)?;
+            best = Some(hit);
+            Some(round_up(hit.t))
+        });
+        best
+    }
+
+    /// The nearest hit of one instance with 0 < t < t_max.
+    pub fn nearest_of(&self, instance: u32, ray: &Ray, t_max: f64) -> Option<Hit> {
+        let placed = &self.instances[instance as usize];
+        let local = placed.placement.local_ray(ray);
+        let (t, primitive, b) = self.geometries[placed.geometry as usize].nearest(&local, t_max)?;
+        Some(Hit { t, instance, primitive, b })
+    }
+
+    /// Whether anything but `except` lies on the ray at 0 < t < t_max. The direction may be of any length.
+    pub fn occluded(&self, ray: &Ray, t_max: f64, except: Option<u32>) -> bool {
+        self.tree.any(&box_ray(ray), round_up(t_max), |instance| {
+            if except == Some(instance) {
+                return false;
+            }
+            let placed = &self.instances[instance as usize];
+            let local = placed.placement.local_ray(ray);
+            self.geometries[placed.geometry as usize].any(&local, t_max)
+        })
+    }
+
+    pub fn geometry(&self, instance: u32) -> &Geometry {
+        &self.geometries[self.instances[instance as usize].geometry as usize]
+    }
+
+    /// World bounds of a placed geometry: of its eight placed corners, rounded outwards.
+    pub fn placed_bounds(geometry: &Geometry, placement: &Placement) -> Aabb {
+        let (min, max) = geometry.bounds();
+        if !min.cmple(max).all() {
+            return Aabb::EMPTY;
+        }
+        let corners = (0..8).map(|i| {
+            let pick = |bit: u32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+            placement.point(DVec3::new(pick(1, min.x, max.x), pick(2, min.y, max.y), pick(4, min.z, max.z)))
+        });
+        let (lo, hi) = corners
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+        // Double-precision rounding of the placement itself.
+        let pad = (lo.abs().max(hi.abs())) * 1e-14;
+        Aabb::from_f64(lo - pad, hi + pad)
+    }
+
+    /// The hit of a shape again, for its surface.
+    pub(super) fn shape_hit(hit: &Hit) -> ShapeHit {
+        ShapeHit { t: hit.t, face: hit.primitive }
+    }
+}

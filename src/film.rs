@@ -1,0 +1,88 @@
+//! The film: tiles become the layers of an image.
+
+use crate::trace::{Layer, Layers, Tile};
+
+/// All tiles of an image.
+#[derive(Clone, Debug)]
+pub struct Film {
+    pub width: u32,
+    pub height: u32,
+    pub tiles: Vec<Tile>,
+}
+
+impl Film {
+    /// An empty film in square tiles of `tile` pixels, in rows from the top left.
+    pub fn new(width: u32, height: u32, tile: u32, layers: Layers) -> Film {
+        let tile = tile.max(1);
+        let starts = |end: u32| (0..end).step_by(tile as usize);
+        let tiles = starts(height)
+            .flat_map(|y| starts(width).map(move |x| (x, y)))
+            .map(|(x, y)| Tile::new(x, y, tile.min(width - x), tile.min(height - y), layers))
+            .collect();
+        Film { width, height, tiles }
+    }
+
+    /// The channels of a layer, each row by row from the top, as single-precision numbers.
+    pub fn channels(&self, layer: Layer) -> Vec<Vec<f32>> {
+        let n = self.width as usize * self.height as usize;
+        let count = match layer {
+            Layer::Depth | Layer::Object | Layer::Samples | Layer::Edges => 1,
+            _ => 3,
+        };
+        let mut channels = vec![vec![0.0; n]; count];
+        let most = self.tiles.iter().flat_map(Tile::samples_per_pass).fold(1.0, f64::max);
+        for tile in &self.tiles {
+            for (x, y) in tile.pixels() {
+                let at = y as usize * self.width as usize + x as usize;
+                let value = tile.value(x, y, layer, most);
+                for (channel, v) in channels.iter_mut().zip(value.to_array()) {
+                    channel[at] = v as f32;
+                }
+            }
+        }
+        channels
+    }
+
+    /// Samples over all pixels and passes.
+    pub fn samples(&self) -> u64 {
+        self.tiles.iter().map(Tile::samples).sum()
+    }
+
+    pub fn memory_bytes(&self) -> usize {
+        self.tiles.iter().map(Tile::memory_bytes).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::DVec3;
+    use crate::trace::PixelValue;
+
+    fn one_pixel(values: impl IntoIterator<Item = f64>) -> Film {
+        let mut film = Film::new(1, 1, 1, Layers { variance: true, ..Layers::default() });
+        for v in values {
+            let value = PixelValue { radiance: DVec3::splat(v), samples: 1, ..PixelValue::default() };
+            film.tiles[0].add(0, 0, &value);
+        }
+        film
+    }
+
+    /// H41: a large mean does not eat a small variance. Of {1e8, 1e8 + 1} repeated, s² = n/(n−1)/4.
+    #[test]
+    fn small_variance_survives_a_large_mean() {
+        let n = 1000.0;
+        let film = one_pixel((0..1000).map(|i| 1e8 + f64::from(i % 2)));
+        let variance = film.channels(Layer::Variance)[0][0];
+        let expected = 0.25 * n / (n - 1.0) / n;
+        assert!((f64::from(variance) / expected - 1.0).abs() < 1e-6, "{variance}");
+    }
+
+    /// H40: a million passes of 0.1 have the mean 0.1.
+    #[test]
+    fn a_million_passes_keep_their_mean() {
+        let film = one_pixel(std::iter::repeat_n(0.1, 1_000_000));
+        assert!((film.tiles[0].value(0, 0, Layer::Radiance, 1.0).x - 0.1).abs() < 1e-10);
+        assert_eq!(film.channels(Layer::Radiance)[0][0], 0.1);
+    }
+}

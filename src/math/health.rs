@@ -1,0 +1,102 @@
+//! Counters for events that should be rare, each with the frequency that is still healthy.
+//!
+//! Counters travel with the work that they describe and are summed; nothing is global.
+
+use std::fmt;
+
+/// An event that should be rare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rare {
+    /// A sample with NaN or infinity in it: dropped, counted and located.
+    NonFiniteSample,
+    /// More overlapping transmissive objects at one point than a path keeps track of.
+    MediaOverflow,
+    /// A shading normal that sent a mirrored or refracted direction through the surface.
+    DirectionThroughSurface,
+    /// A path cut by the depth limit.
+    DepthLimit,
+}
+
+impl Rare {
+    pub const ALL: [Rare; 4] =
+        [Rare::NonFiniteSample, Rare::MediaOverflow, Rare::DirectionThroughSurface, Rare::DepthLimit];
+
+    /// The share of trials up to which the event is healthy.
+    pub fn allowed(self) -> f64 {
+        match self {
+            Rare::NonFiniteSample | Rare::MediaOverflow => 0.0,
+            Rare::DirectionThroughSurface => 0.02,
+            Rare::DepthLimit => 0.05,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Rare::NonFiniteSample => "non-finite samples",
+            Rare::MediaOverflow => "media overflows",
+            Rare::DirectionThroughSurface => "directions through the surface",
+            Rare::DepthLimit => "paths cut by the depth limit",
+        }
+    }
+}
+
+/// Where a non-finite sample was dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    pub x: u32,
+    pub y: u32,
+    pub pass: u32,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "pixel ({}, {}), pass {}", self.x, self.y, self.pass)
+    }
+}
+
+/// Counts of rare events, with the number of trials they are a share of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Health {
+    counts: [u64; Rare::ALL.len()],
+    /// Camera samples: what every event is a share of.
+    pub samples: u64,
+    /// The first few places of non-finite samples.
+    pub places: Vec<Place>,
+}
+
+/// Places kept; the count goes on.
+const PLACES: usize = 16;
+
+impl Health {
+    pub fn count(&mut self, event: Rare) {
+        self.counts[event as usize] += 1;
+    }
+
+    pub fn non_finite(&mut self, place: Place) {
+        self.count(Rare::NonFiniteSample);
+        if self.places.len() < PLACES {
+            self.places.push(place);
+        }
+    }
+
+    pub fn of(&self, event: Rare) -> u64 {
+        self.counts[event as usize]
+    }
+
+    pub fn add(&mut self, other: &Health) {
+        for (sum, count) in self.counts.iter_mut().zip(other.counts) {
+            *sum += count;
+        }
+        self.samples += other.samples;
+        let room = PLACES - self.places.len().min(PLACES);
+        self.places.extend(other.places.iter().take(room));
+    }
+
+    /// Events above their healthy share.
+    pub fn excesses(&self) -> impl Iterator<Item = (Rare, u64)> {
+        Rare::ALL.into_iter().filter_map(|event| {
+            let count = self.of(event);
+            (count as f64 > event.allowed() * self.samples as f64).then_some((event, count))
+        })
+    }
+}

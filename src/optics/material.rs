@@ -1,0 +1,93 @@
+//! Materials as the renderer sees them: every name resolved, every default filled in.
+
+use super::{Texture, TexturePoint};
+use crate::math::Vec3;
+
+/// An index into the world's materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MaterialId(pub u32);
+
+/// An index into the world's textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TextureId(pub u32);
+
+/// A colour or weight: constant, or a texture times a factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weight {
+    Constant(Vec3),
+    Texture(TextureId, Vec3),
+}
+
+impl Weight {
+    pub const ZERO: Weight = Weight::Constant(Vec3::ZERO);
+
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Weight::Constant(c) if *c == Vec3::ZERO)
+    }
+
+    #[inline]
+    pub fn at(&self, textures: &[Texture], point: impl FnOnce() -> TexturePoint) -> Vec3 {
+        match *self {
+            Weight::Constant(value) => value,
+            Weight::Texture(id, factor) => textures[id.0 as usize].color(&point()) * factor,
+        }
+    }
+
+    /// Whether evaluating it needs surface coordinates.
+    pub fn textured(&self) -> bool {
+        matches!(self, Weight::Texture(..))
+    }
+
+    /// An upper bound, channel by channel.
+    pub fn bound(&self, textures: &[Texture]) -> Vec3 {
+        match *self {
+            Weight::Constant(value) => value,
+            Weight::Texture(id, factor) => textures[id.0 as usize].max() * factor,
+        }
+    }
+}
+
+/// How a material bends the shading normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Relief {
+    NormalMap { texture: TextureId, strength: f64 },
+    /// Height of white above black, metres.
+    BumpMap { texture: TextureId, height: f64 },
+}
+
+/// The layers of a surface, from the outside in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    pub diffuse: Weight,
+    pub specular: Weight,
+    pub shininess: f64,
+    /// km.
+    pub reflection: Weight,
+    /// kt.
+    pub transmission: Weight,
+    pub ior: f64,
+    /// 1/m.
+    pub absorption: Vec3,
+    pub priority: i32,
+    /// W·m⁻²·sr⁻¹.
+    pub emission: Weight,
+    /// Whether the side away from the geometric normal emits too.
+    pub emits_back: bool,
+    pub relief: Vec<Relief>,
+    /// Whether any part of it needs surface coordinates.
+    pub textured: bool,
+}
+
+impl Material {
+    pub fn transmits(&self) -> bool {
+        !self.transmission.is_zero()
+    }
+
+    pub fn emits(&self) -> bool {
+        !self.emission.is_zero()
+    }
+
+    pub fn absorbs(&self) -> bool {
+        self.absorption != Vec3::ZERO
+    }
+}

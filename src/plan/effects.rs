@@ -1,0 +1,98 @@
+//! Effects, each decided with its reason in the scene's own names.
+
+use crate::description::{Light, Material, Scene, Source};
+use std::fmt;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    Direct,
+    SoftShadows,
+    Reflection,
+    Refraction,
+    Absorption,
+    Caustics,
+    Textures,
+    NormalMaps,
+    DepthOfField,
+    Environment,
+}
+
+impl Effect {
+    pub fn name(self) -> &'static str {
+        match self {
+            Effect::Direct => "direct",
+            Effect::SoftShadows => "soft shadows",
+            Effect::Reflection => "reflection",
+            Effect::Refraction => "refraction",
+            Effect::Absorption => "absorption",
+            Effect::Caustics => "caustics",
+            Effect::Textures => "textures",
+            Effect::NormalMaps => "normal maps",
+            Effect::DepthOfField => "depth of field",
+            Effect::Environment => "environment",
+        }
+    }
+}
+
+/// Whether an effect runs, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    pub effect: Effect,
+    pub on: bool,
+    pub reason: String,
+}
+
+impl fmt::Display for Decision {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.effect.name(), if self.on { "on" } else { "off" }, self.reason)
+    }
+}
+
+pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
+    let named = |predicate: &dyn Fn(&Material) -> bool| {
+        scene.materials.iter().find(|(_, m)| predicate(m)).map(|(name, _)| format!("material `{name}`"))
+    };
+    let light = |predicate: &dyn Fn(&Light) -> bool| {
+        scene.lights.iter().find(|(_, l)| predicate(l)).map(|(name, _)| format!("light `{name}`"))
+    };
+    let emitting = || named(&|m| !m.emission.is_zero());
+    let area = |l: &Light| matches!(l, Light::Sphere { .. } | Light::Quad { .. } | Light::Disk { .. });
+    let sources = |m: &Material| {
+        [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission]
+            .into_iter()
+            .any(|s| matches!(s, Source::Texture(_)))
+    };
+    let lens = scene.camera.as_ref().filter(|c| c.aperture_m > 0.0).map(|c| format!("aperture of {} m", c.aperture_m));
+    vec![
+        decision(Effect::Direct, light(&|_| true).or_else(emitting), "the scene has no light"),
+        decision(
+            Effect::SoftShadows,
+            light(&|l| area(l) || matches!(l, Light::Environment { .. })).or_else(emitting),
+            "no light has an extent",
+        ),
+        decision(Effect::Reflection, named(&|m| !m.reflection.is_zero()), "no material reflects"),
+        decision(Effect::Refraction, named(&|m| !m.transmission.is_zero()), "no material transmits"),
+        decision(Effect::Absorption, named(&|m| !m.absorption.is_zero()), "no material absorbs inside"),
+        Decision {
+            effect: Effect::Caustics,
+            on: false,
+            reason: "this version scatters no photons; glass and mirrors cast plain shadows".to_owned(),
+        },
+        decision(Effect::Textures, named(&sources), "no material names a texture"),
+        decision(
+            Effect::NormalMaps,
+            named(&|m| m.normal_map.is_some() || m.bump_map.is_some()),
+            "no material names a normal or bump map",
+        ),
+        decision(Effect::DepthOfField, lens, "the camera is a pinhole"),
+        decision(
+            Effect::Environment,
+            light(&|l| matches!(l, Light::Environment { .. })),
+            "no light is an environment",
+        ),
+    ]
+}
+
+fn decision(effect: Effect, found: Option<String>, otherwise: &str) -> Decision {
+    Decision { effect, on: found.is_some(), reason: found.unwrap_or_else(|| otherwise.to_owned()) }
+}

@@ -1,0 +1,73 @@
+//! Which effects a scene calls for, why, and how much of each.
+//!
+//! Decided from the description alone, before any file is read. An effect that is off does not run,
+//! allocate or load.
+
+mod effects;
+
+pub use crate::description::Antialiasing;
+use crate::description::{Light, Scene};
+pub use effects::{Decision, Effect};
+
+/// What a render will do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub antialiasing: Antialiasing,
+    /// Independent passes whose mean is the image.
+    pub passes: u32,
+    pub seed: u64,
+    /// Specular events in a row after which a path is cut.
+    pub max_depth: u32,
+    /// Branches of at least this weight are always followed; lighter ones survive by chance, in
+    /// proportion, with their weight raised to it.
+    pub split_weight: f64,
+    pub decisions: Vec<Decision>,
+}
+
+/// Passes of progressive antialiasing where the scene does not say.
+const DEFAULT_PASSES: u32 = 64;
+
+/// Shadow rays a shading point on an area light, where one pass has to do.
+const SINGLE_PASS_LIGHT_SAMPLES: u32 = 16;
+
+impl Plan {
+    /// `passes` and `seed` override the scene's.
+    pub fn new(scene: &Scene, passes: Option<u32>, seed: Option<u64>) -> Plan {
+        let progressive = scene.antialiasing == Antialiasing::Progressive;
+        Plan {
+            antialiasing: scene.antialiasing,
+            passes: passes.or(scene.render.passes).unwrap_or(if progressive { DEFAULT_PASSES } else { 1 }).max(1),
+            seed: seed.unwrap_or(scene.render.seed),
+            max_depth: scene.render.max_depth,
+            // One sample of many averages its chances out; one of few must not show them.
+            split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
+            decisions: effects::decide(scene),
+        }
+    }
+
+    pub fn is_on(&self, effect: Effect) -> bool {
+        self.decisions.iter().any(|d| d.effect == effect && d.on)
+    }
+
+    /// Shadow rays a shading point on this light.
+    pub fn light_samples(&self, light: &Light) -> u32 {
+        let (Light::Sphere { samples, .. }
+        | Light::Quad { samples, .. }
+        | Light::Disk { samples, .. }
+        | Light::Environment { samples, .. }) = light
+        else {
+            return 1;
+        };
+        samples.unwrap_or(self.area_samples()).max(1)
+    }
+
+    /// Shadow rays a shading point on an emitting object.
+    pub fn area_samples(&self) -> u32 {
+        if self.antialiasing == Antialiasing::Progressive { 1 } else { SINGLE_PASS_LIGHT_SAMPLES }
+    }
+
+    /// One line an effect, for the image's provenance.
+    pub fn text(&self) -> String {
+        self.decisions.iter().map(|d| d.to_string() + "\n").collect()
+    }
+}

@@ -1,0 +1,136 @@
+//! The stages in order, each timed: the whole program on one screen.
+
+mod image;
+mod options;
+mod stats;
+
+use crate::build::{self, Built};
+use crate::description::Loaded;
+use crate::film::Film;
+use crate::math::Rare;
+use crate::plan::{Antialiasing, Plan};
+use crate::trace::{self, Tally, Tracer};
+use crate::{index, output, scatter};
+pub use options::{Aov, Options, Progress, RenderError, Silent};
+use rayon::prelude::*;
+pub use stats::{RareEvent, StageTime, Stats};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// A finished render.
+#[derive(Debug)]
+pub struct Rendered {
+    pub image: output::Image,
+    pub provenance: output::Provenance,
+    pub stats: Stats,
+    pub warnings: Vec<String>,
+    /// Every asset file that was read.
+    pub files: Vec<PathBuf>,
+}
+
+/// Passes that a tile works through before progress is reported.
+const BATCH: u32 = 8;
+
+/// Renders a checked scene.
+pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = options.threads {
+        pool = pool.num_threads(threads);
+    }
+    let pool = pool.build().map_err(|e| RenderError::Failed(format!("no threads could be started: {e}")))?;
+    pool.install(|| stages(loaded, options, progress))
+}
+
+fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
+    let mut clock = Clock::default();
+    let plan = Plan::new(&loaded.scene, options.passes, options.seed);
+    options.check(&plan)?;
+    clock.lap("plan");
+
+    progress.start("build", 1, "scene");
+    let Built { world, mut warnings, files } = build::build(&loaded.scene, &plan)?;
+    progress.finish();
+    clock.lap("build");
+
+    let wants = options.wants();
+    let mut tracer = Tracer { world: &world, plan: &plan, wants, reference_level: 1.0 };
+    if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
+        tracer.reference_level = trace::reference_level(&tracer);
+    }
+    let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(&wants));
+    let mut tally = Tally::default();
+    progress.start("trace", film.tiles.len() as u64 * u64::from(plan.passes), "tiles");
+    for first in (0..plan.passes).step_by(BATCH as usize) {
+        let batch = first..(first + BATCH).min(plan.passes);
+        // The gather stage of tracing has nothing to ask while the plan scatters nothing.
+        let _map = index::map(scatter::photons(&plan));
+        let tallies: Vec<Tally> = film
+            .tiles
+            .par_iter_mut()
+            .map(|tile| {
+                let tally = trace::passes(&tracer, batch.clone(), tile);
+                progress.advance(u64::from(batch.end - batch.start));
+                tally
+            })
+            .collect();
+        tallies.iter().for_each(|t| tally.add(t));
+    }
+    progress.finish();
+    clock.lap("trace");
+
+    warnings.extend(health_warnings(&tally, &plan));
+    if options.strict {
+        refuse_excesses(&tally)?;
+    }
+    let image = image::assemble(&film, options);
+    let stats = Stats::new(clock.stages, &tally, &plan, &film, &world);
+    let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
+    Ok(Rendered { image, provenance, stats, warnings, files })
+}
+
+#[derive(Default)]
+struct Clock {
+    stages: Vec<StageTime>,
+    last: Option<Instant>,
+}
+
+impl Clock {
+    fn lap(&mut self, name: &str) {
+        let now = Instant::now();
+        let seconds = self.last.map_or(0.0, |last| (now - last).as_secs_f64());
+        self.last = Some(now);
+        self.stages.push(StageTime { name: name.to_owned(), seconds });
+    }
+}
+
+fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
+    let health = &tally.health;
+    let mut warnings = Vec::new();
+    for (event, count) in health.excesses() {
+        let places: Vec<String> = health.places.iter().take(3).map(ToString::to_string).collect();
+        let at = if event == Rare::NonFiniteSample { format!(", first at {}", places.join("; ")) } else { String::new() };
+        warnings.push(format!(
+            "{}: {count} in {} samples, more than {} is unhealthy{at}",
+            event.name(),
+            health.samples,
+            event.allowed()
+        ));
+    }
+    let cut = health.of(Rare::DepthLimit);
+    if cut > 0 {
+        warnings.push(format!(
+            "{cut} paths were cut after {} specular events in a row (render.max_depth)",
+            plan.max_depth
+        ));
+    }
+    warnings
+}
+
+fn refuse_excesses(tally: &Tally) -> Result<(), RenderError> {
+    let excesses: Vec<String> =
+        tally.health.excesses().map(|(event, count)| format!("{count} {}", event.name())).collect();
+    if excesses.is_empty() {
+        return Ok(());
+    }
+    Err(RenderError::Failed(format!("unhealthy: {} (--strict)", excesses.join(", "))))
+}

@@ -1,0 +1,175 @@
+//! What a caller asks of a render beyond the scene, and what it may be told.
+
+use crate::build::BuildError;
+use crate::plan::{Antialiasing, Plan};
+use crate::trace::Wants;
+use std::str::FromStr;
+
+/// Options of one render. They override what the scene says.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Worker threads; without it one a processor. Never changes a pixel.
+    pub threads: Option<usize>,
+    pub passes: Option<u32>,
+    pub seed: Option<u64>,
+    /// Further layers of the image.
+    pub aovs: Vec<Aov>,
+    /// Side of a tile in pixels, 1 or more. Never changes a pixel.
+    pub tile: u32,
+    /// Rare events above their healthy share are an error.
+    pub strict: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { threads: None, passes: None, seed: None, aovs: Vec::new(), tile: 32, strict: false }
+    }
+}
+
+/// A further layer of the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Aov {
+    Albedo,
+    Normal,
+    Depth,
+    Position,
+    ObjectId,
+    Samples,
+    Direct,
+    Reflection,
+    Refraction,
+    Variance,
+    Edges,
+}
+
+impl Aov {
+    pub const ALL: [Aov; 11] = [
+        Aov::Albedo,
+        Aov::Normal,
+        Aov::Depth,
+        Aov::Position,
+        Aov::ObjectId,
+        Aov::Samples,
+        Aov::Direct,
+        Aov::Reflection,
+        Aov::Refraction,
+        Aov::Variance,
+        Aov::Edges,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Aov::Albedo => "albedo",
+            Aov::Normal => "normal",
+            Aov::Depth => "depth",
+            Aov::Position => "position",
+            Aov::ObjectId => "object_id",
+            Aov::Samples => "samples",
+            Aov::Direct => "direct",
+            Aov::Reflection => "reflection",
+            Aov::Refraction => "refraction",
+            Aov::Variance => "variance",
+            Aov::Edges => "edges",
+        }
+    }
+}
+
+impl FromStr for Aov {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Aov, String> {
+        Aov::ALL.into_iter().find(|aov| aov.name() == name).ok_or_else(|| {
+            let nearest = Aov::ALL.into_iter().map(Aov::name).min_by_key(|n| strsim::damerau_levenshtein(n, name));
+            let names = Aov::ALL.map(Aov::name).join(", ");
+            format!("no layer is named `{name}`; did you mean `{}`? All are: {names}", nearest.unwrap_or_default())
+        })
+    }
+}
+
+impl Options {
+    pub(super) fn wants(&self) -> Wants {
+        let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
+        Wants {
+            first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
+            split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction]),
+            variance: any(&[Aov::Variance]),
+        }
+    }
+
+    /// Refuses what this plan cannot give.
+    pub(super) fn check(&self, plan: &Plan) -> Result<(), RenderError> {
+        if self.aovs.contains(&Aov::Variance) && plan.passes < 2 {
+            return Err(RenderError::Invalid(
+                "the variance of a single pass is unknown: ask for `--passes 2` or more with `--aov variance`"
+                    .to_owned(),
+            ));
+        }
+        if self.aovs.contains(&Aov::Edges) && !matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
+            return Err(RenderError::Invalid(
+                "the `edges` layer shows where adaptive antialiasing went: it needs `antialiasing: adaptive()`"
+                    .to_owned(),
+            ));
+        }
+        if self.threads == Some(0) || self.tile == 0 {
+            return Err(RenderError::Invalid("threads and tile size must be 1 or more".to_owned()));
+        }
+        Ok(())
+    }
+}
+
+/// How a render is followed. Called from many threads.
+pub trait Progress: Sync {
+    /// A stage of `total` units begins.
+    fn start(&self, stage: &str, total: u64, unit: &str);
+    /// `done` more units are finished.
+    fn advance(&self, done: u64);
+    /// The stage is over.
+    fn finish(&self);
+    /// Something worth a line.
+    fn note(&self, message: &str);
+}
+
+/// Follows nothing.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn start(&self, _: &str, _: u64, _: &str) {}
+    fn advance(&self, _: u64) {}
+    fn finish(&self) {}
+    fn note(&self, _: &str) {}
+}
+
+/// Why nothing was rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    #[error("not supported: {0}")]
+    NotSupported(String),
+    #[error("{0}")]
+    Invalid(String),
+    #[error("{0}")]
+    Io(String),
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl RenderError {
+    /// 1 render failed, 2 scene invalid, 3 input unreadable.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            RenderError::Failed(_) => 1,
+            RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
+            RenderError::Io(_) => 3,
+        }
+    }
+}
+
+impl From<BuildError> for RenderError {
+    fn from(error: BuildError) -> Self {
+        match error {
+            BuildError::NotSupported(m) => RenderError::NotSupported(m),
+            BuildError::Invalid(m) => RenderError::Invalid(m),
+            BuildError::Io(m) => RenderError::Io(m),
+        }
+    }
+}

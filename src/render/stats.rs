@@ -1,0 +1,95 @@
+//! What a render cost and counted, for people and machines.
+
+use crate::build::{Geometry, World};
+use crate::film::Film;
+use crate::math::Rare;
+use crate::plan::Plan;
+use crate::trace::{Rays, Tally};
+use serde::Serialize;
+
+/// Statistics of a render; serialised as they stand by `--stats`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stats {
+    pub stages: Vec<StageTime>,
+    pub passes: u32,
+    /// Camera samples.
+    pub samples: u64,
+    pub rays: Rays,
+    /// Paths cut by the depth limit.
+    pub truncated_paths: u64,
+    pub rare_events: Vec<RareEvent>,
+    pub memory: Memory,
+    pub scene: SceneSize,
+}
+
+/// Wall time of one stage.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageTime {
+    pub name: String,
+    pub seconds: f64,
+}
+
+/// A rare event against its healthy share of `of` trials.
+#[derive(Clone, Debug, Serialize)]
+pub struct RareEvent {
+    pub name: &'static str,
+    pub count: u64,
+    pub of: u64,
+    pub allowed: f64,
+}
+
+/// Bytes held by the large parts of a render.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Memory {
+    pub geometry_bytes: usize,
+    pub trees_bytes: usize,
+    pub textures_bytes: usize,
+    pub film_bytes: usize,
+}
+
+/// What the built world holds.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SceneSize {
+    pub instances: usize,
+    /// Stored triangles; instances share them.
+    pub triangles: usize,
+    pub emitters: usize,
+}
+
+impl Stats {
+    pub(super) fn new(stages: Vec<StageTime>, tally: &Tally, plan: &Plan, film: &Film, world: &World) -> Stats {
+        let health = &tally.health;
+        let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
+            name: event.name(),
+            count: health.of(event),
+            of: health.samples,
+            allowed: event.allowed(),
+        });
+        let meshes = || {
+            world.geometries.iter().filter_map(|g| match g {
+                Geometry::Mesh(mesh) => Some(mesh),
+                Geometry::Shape(_) => None,
+            })
+        };
+        Stats {
+            stages,
+            passes: plan.passes,
+            samples: health.samples,
+            rays: tally.rays,
+            truncated_paths: health.of(Rare::DepthLimit),
+            rare_events: rare_events.collect(),
+            memory: Memory {
+                geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()
+                    + size_of_val(world.instances.as_slice()),
+                trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>() + world.tree.memory_bytes(),
+                textures_bytes: world.textures.iter().map(|t| t.memory_bytes()).sum(),
+                film_bytes: film.memory_bytes(),
+            },
+            scene: SceneSize {
+                instances: world.instances.len(),
+                triangles: meshes().map(|m| m.surface.triangles.len()).sum(),
+                emitters: world.emitters.len(),
+            },
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! The weighted mean of a pixel's samples within one pass, in double precision.
+
+use crate::trace::PixelValue;
+use crate::math::{DVec3, Vec3};
+use crate::trace::Sample;
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Average {
+    weight: f64,
+    radiance: DVec3,
+    direct: DVec3,
+    reflection: DVec3,
+    refraction: DVec3,
+    albedo: DVec3,
+    normal: DVec3,
+    position: DVec3,
+    depth: f64,
+    /// Object identities are not averaged: the first sample's counts.
+    object: Option<u32>,
+}
+
+impl Average {
+    pub fn add(&mut self, sample: &Sample, weight: f64) {
+        let scaled = |v: Vec3| v.as_dvec3() * weight;
+        self.weight += weight;
+        self.radiance += scaled(sample.radiance);
+        self.direct += scaled(sample.direct);
+        self.reflection += scaled(sample.reflection);
+        self.refraction += scaled(sample.refraction);
+        self.albedo += scaled(sample.first.albedo);
+        self.normal += scaled(sample.first.normal);
+        self.position += scaled(sample.first.position);
+        self.depth += f64::from(sample.first.depth) * weight;
+        self.object.get_or_insert(sample.first.object);
+    }
+
+    /// The mean, of `samples` camera samples. `None` where nothing was added.
+    pub fn value(&self, samples: u32) -> Option<PixelValue> {
+        if self.weight <= 0.0 {
+            return None;
+        }
+        let inverse = 1.0 / self.weight;
+        Some(PixelValue {
+            radiance: self.radiance * inverse,
+            direct: self.direct * inverse,
+            reflection: self.reflection * inverse,
+            refraction: self.refraction * inverse,
+            albedo: self.albedo * inverse,
+            normal: self.normal * inverse,
+            position: self.position * inverse,
+            depth: self.depth * inverse,
+            object: self.object.unwrap_or(0),
+            samples,
+        })
+    }
+}

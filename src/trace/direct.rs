@@ -1,0 +1,93 @@
+//! Direct light: every emitter is sampled from the shading point (next-event estimation).
+//!
+//! L = Σ_emitters 1/n Σ f(wo, wi)·|cosθ_i|·V·Lₑ/p(wi), with f = base/π + ks·(s+2)/2π·cosˢα: the
+//! Lambert layer and the normalised Phong highlight of exponent s. Any surface in between blocks
+//! light, glass as well: what glass lets through is a caustic.
+
+use super::light::{Arrival, LightSample};
+use super::shade::Shading;
+use super::{Tally, Tracer};
+use crate::build::{MediaSet, Surface};
+use crate::math::random::Sequence;
+use crate::math::{Ray, Vec3};
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+impl Tracer<'_> {
+    /// Light that the point reflects towards wo from all emitters; `base` is the weight of its
+    /// Lambert layer.
+    pub(super) fn direct(
+        &self,
+        base: Vec3,
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        sequence: Sequence,
+        tally: &mut Tally,
+    ) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for (i, emitter) in (0u64..).zip(&self.world.emitters) {
+            let own = sequence.dimension(i);
+            let mut light = Vec3::ZERO;
+            for k in 0..emitter.samples {
+                let u = own.split(k, emitter.samples).pair();
+                let Some(sample) = self.light_sample(emitter, surface, shading, u) else { continue };
+                let value = sample.value * reflected_share(base, shading, &sample);
+                if value == Vec3::ZERO {
+                    continue;
+                }
+                tally.rays.shadow += 1;
+                if let Some(distance) = self.visible(surface, shading, &sample) {
+                    light += value * self.transmittance(media, distance);
+                }
+            }
+            sum += light / emitter.samples as f32;
+        }
+        sum
+    }
+
+    /// The distance to a light that nothing hides.
+    fn visible(&self, surface: &Surface, shading: &Shading, sample: &LightSample) -> Option<f64> {
+        let lifted = surface.shadow_p != surface.p;
+        let above = sample.wi.dot(shading.ng) > 0.0;
+        if !above && !lifted {
+            // Lit through the back of the surface: only the shading normal says otherwise.
+            return None;
+        }
+        let start = if lifted { surface.shadow_p } else { surface.p };
+        let origin = start + shading.ng * surface.p_error;
+        match sample.arrival {
+            Arrival::Infinite => {
+                let ray = Ray { origin, dir: sample.wi };
+                (!self.world.occluded(&ray, f64::INFINITY, None)).then_some(f64::INFINITY)
+            }
+            // The emitter is convex: what lies before its first surface is not itself.
+            Arrival::Shape { p, instance } => {
+                let ray = Ray { origin, dir: p - origin };
+                (!self.world.occluded(&ray, 1.0, Some(instance))).then(|| ray.dir.length())
+            }
+            Arrival::Point { p } => {
+                let ray = Ray { origin, dir: p - origin };
+                (!self.world.occluded(&ray, 1.0, None)).then(|| ray.dir.length())
+            }
+        }
+    }
+}
+
+/// f(wo, wi)·cosθ_i.
+fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 {
+    let cos = sample.wi.dot(shading.ns);
+    if cos <= 0.0 {
+        return Vec3::ZERO;
+    }
+    let lambert = base * (cos * FRAC_1_PI) as f32;
+    if shading.ks == Vec3::ZERO {
+        return lambert;
+    }
+    let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
+    let cos_alpha = mirror.dot(sample.wi);
+    if cos_alpha <= 0.0 {
+        return lambert;
+    }
+    let s = shading.material.shininess;
+    lambert + shading.ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
+}

@@ -1,0 +1,55 @@
+//! How wide a ray has become: a cone around it, and the ellipse in which it meets a surface.
+//!
+//! Akenine-Möller, Crassin, Boksansky, Belcour, Panteleev, Wright: Improved Shader and Texture Level
+//! of Detail Using Ray Cones, JCGT 10(1), 2021.
+
+use crate::build::Surface;
+use crate::math::{DVec2, DVec3};
+use crate::optics::TexturePoint;
+
+/// A cone around a ray: radius in metres where it starts, and growth in metres a metre.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    pub width: f64,
+    pub spread: f64,
+}
+
+impl Cone {
+    /// The cone that goes on after `t` metres, from a flat mirror.
+    pub fn after(self, t: f64) -> Cone {
+        Cone { width: self.width + self.spread * t, ..self }
+    }
+
+    /// Behind an interface angles shrink by `eta`, for small ones.
+    pub fn refracted(self, eta: f64) -> Cone {
+        Cone { spread: self.spread / eta, ..self }
+    }
+}
+
+/// The point of a surface for texture lookups, with the ellipse in which the cone meets it.
+pub fn texture_point(surface: &Surface, wo: DVec3, cone: &Cone) -> TexturePoint {
+    let radius = cone.width + cone.spread * surface.t;
+    let n = surface.ng;
+    let cos = wo.dot(n).abs().max(1e-4);
+    let along = (wo - n * wo.dot(n)).try_normalize();
+    let minor = along.map_or(surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO), |a| n.cross(a));
+    let major = along.unwrap_or_else(|| n.cross(minor));
+    TexturePoint {
+        uv: surface.uv,
+        duv: [in_uv(surface, major * (radius / cos)), in_uv(surface, minor * radius)],
+        p: surface.local,
+        dp: radius,
+    }
+}
+
+/// The (u, v) step of a step on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.
+fn in_uv(surface: &Surface, step: DVec3) -> DVec2 {
+    let (u, v) = (surface.dpdu, surface.dpdv);
+    let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+    let det = uu * vv - uv * uv;
+    if !(det > 1e-12 * uu * vv) {
+        return DVec2::ZERO;
+    }
+    let (su, sv) = (step.dot(u), step.dot(v));
+    DVec2::new((vv * su - uv * sv) / det, (uu * sv - uv * su) / det)
+}

@@ -1,0 +1,178 @@
+//! Samples of emitters as a shading point sees them.
+
+use super::Tracer;
+use super::shade::Shading;
+use crate::build::{Geometry, Hit, Surface};
+use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
+use crate::optics::{Emitter, EmitterKind, TexturePoint, sample_triangle_direction, spot_falloff};
+use std::f64::consts::FRAC_1_PI;
+
+/// Light from one direction.
+pub struct LightSample {
+    /// Unit direction to the light.
+    pub wi: DVec3,
+    /// Radiance over density (1/sr), or intensity over squared distance: W·m⁻² for a surface that
+    /// faces it.
+    pub value: Vec3,
+    pub arrival: Arrival,
+}
+
+/// Where the light comes from.
+#[derive(Clone, Copy)]
+pub enum Arrival {
+    Infinite,
+    /// A point in the open, or just off an emitting surface.
+    Point { p: DVec3 },
+    /// The first point of a convex emitter.
+    Shape { p: DVec3, instance: u32 },
+}
+
+impl Tracer<'_> {
+    pub(super) fn light_sample(
+        &self,
+        emitter: &Emitter,
+        surface: &Surface,
+        shading: &Shading,
+        u: [f64; 2],
+    ) -> Option<LightSample> {
+        let p = surface.p;
+        match &emitter.kind {
+            EmitterKind::Point { position, intensity, falloff } => {
+                let (wi, distance2) = towards(p, *position)?;
+                let attenuation = match falloff {
+                    None => 1.0 / distance2,
+                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance2.sqrt() + c2 * distance2),
+                };
+                let value = *intensity * attenuation as f32;
+                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+            }
+            EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => {
+                let (wi, distance2) = towards(p, *position)?;
+                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / distance2;
+                let value = *intensity * share as f32;
+                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+            }
+            EmitterKind::Directional { to_light, irradiance } => {
+                Some(LightSample { wi: *to_light, value: *irradiance, arrival: Arrival::Infinite })
+            }
+            EmitterKind::Shape { instance } => self.shape_sample(*instance, p, u),
+            EmitterKind::Mesh { instance, triangles, cumulative } => {
+                self.mesh_sample(*instance, triangles, cumulative, p, u)
+            }
+            EmitterKind::Environment => self.environment_sample(shading, u),
+        }
+    }
+
+    /// A direction within the solid angle of a placed shape. An affine map takes the density along:
+    /// p_world = p_object·‖Mω‖³ / |det M|.
+    fn shape_sample(&self, index: u32, p: DVec3, u: [f64; 2]) -> Option<LightSample> {
+        let instance = &self.world.instances[index as usize];
+        let Geometry::Shape(shape) = self.world.geometry(index) else { return None };
+        let placement = &instance.placement;
+        let from = placement.local_point(p);
+        let sample = shape.sample_direction(from, u)?;
+        let dir = placement.vector(sample.dir);
+        let length = dir.length();
+        let pdf = sample.pdf * length * length * length / placement.det().abs();
+        let ray = Ray { origin: p, dir: dir / length };
+        let hit = self.world.nearest_of(index, &ray, f64::INFINITY)?;
+        let radiance = self.emitted_towards(&ray, &hit);
+        (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
+            wi: ray.dir,
+            value: radiance / pdf as f32,
+            arrival: Arrival::Shape { p: ray.at(hit.t), instance: index },
+        })
+    }
+
+    fn mesh_sample(
+        &self,
+        index: u32,
+        triangles: &[u32],
+        cumulative: &[f64],
+        p: DVec3,
+        u: [f64; 2],
+    ) -> Option<LightSample> {
+        let Geometry::Mesh(mesh) = self.world.geometry(index) else { return None };
+        let placement = &self.world.instances[index as usize].placement;
+        let total = *cumulative.last()?;
+        let at = u[0] * total;
+        let i = cumulative.partition_point(|&sum| sum <= at).min(triangles.len() - 1);
+        let below = if i == 0 { 0.0 } else { cumulative[i - 1] };
+        let area = cumulative[i] - below;
+        // What the choice has left of the first value is uniform again.
+        let rest = ((at - below) / area).clamp(0.0, 1.0 - f64::EPSILON);
+        let triangle = triangles[i];
+        let corners = mesh.surface.triangles[triangle as usize]
+            .map(|v| placement.point(mesh.surface.positions[v as usize].as_dvec3()));
+        let sample = sample_triangle_direction(p, corners, [rest, u[1]])?;
+        let pdf = sample.pdf * area / total;
+        let ray = Ray { origin: p, dir: sample.dir };
+        let (t, b) = plane_hit(&ray, corners)?;
+        let hit = Hit { t, instance: index, primitive: triangle, b };
+        let radiance = self.emitted_towards(&ray, &hit);
+        if !(pdf > 0.0) || radiance == Vec3::ZERO {
+            return None;
+        }
+        let there = self.world.surface(&ray, &hit);
+        let end = Ray::leaving(there.p, there.p_error, there.ng, -ray.dir).origin;
+        Some(LightSample { wi: ray.dir, value: radiance / pdf as f32, arrival: Arrival::Point { p: end } })
+    }
+
+    /// One direction from the balance of two densities (Veach & Guibas 1995): the environment's own,
+    /// and the cosine of the surface, which serves wide and even skies better.
+    fn environment_sample(&self, shading: &Shading, u: [f64; 2]) -> Option<LightSample> {
+        let environment = self.world.environment.as_ref()?;
+        let wi = if u[0] < 0.5 {
+            environment.sample([2.0 * u[0], u[1]])?.dir
+        } else {
+            Frame::around(shading.ns).to_world(sampling::cosine_hemisphere([2.0 * u[0] - 1.0, u[1]]))
+        };
+        let pdf = 0.5 * (environment.pdf(wi) + wi.dot(shading.ns).max(0.0) * FRAC_1_PI);
+        let radiance = environment.radiance(wi);
+        (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
+            wi,
+            value: radiance / pdf as f32,
+            arrival: Arrival::Infinite,
+        })
+    }
+
+    /// Radiance that an emitting surface sends back along a ray that hits it.
+    fn emitted_towards(&self, ray: &Ray, hit: &Hit) -> Vec3 {
+        let world = self.world;
+        let binding = &world.bindings[world.instances[hit.instance as usize].binding as usize];
+        if let [only] = binding[..] {
+            let material = &world.materials[only.0 as usize];
+            if let (crate::optics::Weight::Constant(radiance), true) = (material.emission, material.emits_back) {
+                return radiance;
+            }
+        }
+        let surface = world.surface(ray, hit);
+        let material = &world.materials[surface.material.0 as usize];
+        if !material.emits_back && surface.ng.dot(ray.dir) >= 0.0 {
+            return Vec3::ZERO;
+        }
+        let point = || TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
+        material.emission.at(&world.textures, point)
+    }
+}
+
+/// Unit direction and squared distance from one point to another.
+fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64)> {
+    let d = to - from;
+    let distance2 = d.length_squared();
+    (distance2 > 0.0).then(|| (d / distance2.sqrt(), distance2))
+}
+
+/// Where a ray meets the plane of a triangle, with barycentric coordinates put inside of it.
+fn plane_hit(ray: &Ray, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f32; 3])> {
+    let n = (b - a).cross(c - a);
+    let t = (a - ray.origin).dot(n) / ray.dir.dot(n);
+    if !(t > 0.0 && t.is_finite()) {
+        return None;
+    }
+    let p = ray.at(t);
+    let inverse = 1.0 / n.length_squared();
+    let v = ((p - a).cross(c - a).dot(n) * inverse).clamp(0.0, 1.0);
+    let w = ((b - a).cross(p - a).dot(n) * inverse).clamp(0.0, 1.0 - v);
+    Some((t, [(1.0 - v - w) as f32, v as f32, w as f32]))
+}

@@ -1,0 +1,79 @@
+//! Pixels become tiles: camera samples, the paths behind them, and their mean over each pixel.
+//!
+//! `path` knows no tiles and `antialias` no physics. A pixel's value in a pass is a function of the
+//! scene, the pixel and the pass alone, so that tiles of any size on any number of threads agree.
+
+mod antialias;
+mod direct;
+mod footprint;
+mod light;
+mod path;
+mod reference_level;
+mod sample;
+mod shade;
+mod tile;
+
+use crate::build::World;
+use crate::math::Health;
+use crate::plan::Plan;
+pub use path::Scratch;
+pub use reference_level::reference_level;
+pub use sample::{Sample, Wants};
+use serde::Serialize;
+pub use tile::{Layer, Layers, PixelValue, Tile};
+
+/// Rays by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Rays {
+    pub camera: u64,
+    pub shadow: u64,
+    pub reflection: u64,
+    pub refraction: u64,
+}
+
+impl Rays {
+    pub fn total(&self) -> u64 {
+        self.camera + self.shadow + self.reflection + self.refraction
+    }
+}
+
+/// What tracing counts as it goes.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    pub rays: Rays,
+    pub health: Health,
+}
+
+impl Tally {
+    pub fn add(&mut self, other: &Tally) {
+        self.rays.camera += other.rays.camera;
+        self.rays.shadow += other.rays.shadow;
+        self.rays.reflection += other.rays.reflection;
+        self.rays.refraction += other.rays.refraction;
+        self.health.add(&other.health);
+    }
+}
+
+/// Everything that stays the same while tiles are traced.
+pub struct Tracer<'a> {
+    pub world: &'a World,
+    pub plan: &'a Plan,
+    pub wants: Wants,
+    /// Luminance that counts as middling in this scene: see [`reference_level`].
+    pub reference_level: f32,
+}
+
+/// Adds the passes of `passes` to a tile, in order.
+pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile) -> Tally {
+    let mut tally = Tally::default();
+    let mut scratch = Scratch::new(tracer);
+    for pass in passes {
+        antialias::pass(tracer, pass, tile, &mut scratch, &mut tally);
+    }
+    tally
+}
+
+/// The layers that a film needs for what is wanted of each sample.
+pub fn layers(wants: &Wants) -> Layers {
+    Layers { first_hit: wants.first_hit, split: wants.split, variance: wants.variance }
+}

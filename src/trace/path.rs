@@ -1,0 +1,300 @@
+//! Camera paths: from the eye through mirrors and interfaces to what is not specular.
+//!
+//! At a surface of reflection km and transmission kt (all from the outside in, so that no weights
+//! gain energy), with Fresnel reflectance F:
+//!
+//! L = km·L_mirror + (1−km)·[ kt·(F·L_reflected + (1−F)·(n₁/n₂)²·L_refracted) + (1−kt)·L_shaded ] + highlight
+//!
+//! A branch of at least `Plan::split_weight` is always followed; a lighter one survives with
+//! probability weight / split_weight and then weighs split_weight: unbiased, and no path ever has
+//! more than about 1 / split_weight branches. (n₁/n₂)² is the compression of solid angle across an
+//! interface (Veach 1997, 5.2).
+
+use super::footprint::Cone;
+use super::sample::FirstHit;
+use super::shade::Shading;
+use super::{Sample, Tally, Tracer};
+use crate::build::{MediaSet, Surface};
+use crate::math::random::Sequence;
+use crate::math::{DVec2, DVec3, Rare, Ray, Vec3};
+use crate::optics::{Interface, reflected, refracted};
+
+/// The first specular event of a path, which decides the layer that its light counts to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Class {
+    Direct,
+    Reflection,
+    Refraction,
+}
+
+impl Class {
+    fn then(self, event: Class) -> Class {
+        if self == Class::Direct { event } else { self }
+    }
+}
+
+/// A part of a path that is still to be followed.
+#[derive(Clone, Copy, Debug)]
+struct Branch {
+    ray: Ray,
+    throughput: Vec3,
+    media: MediaSet,
+    cone: Cone,
+    depth: u32,
+    sequence: Sequence,
+    class: Class,
+}
+
+/// Dimensions of a path vertex's random values.
+const LIGHTS: u64 = 1;
+const ROULETTE: u64 = 2;
+const MIRROR: u64 = 3;
+const REFLECTED: u64 = 4;
+const REFRACTED: u64 = 5;
+
+/// Dimensions of a camera sample.
+const LENS: u64 = 6;
+
+/// Storage that samples of one tile use again, and what holds for all of them.
+pub struct Scratch {
+    branches: Vec<Branch>,
+    /// The media around the eye.
+    start: MediaSet,
+}
+
+impl Scratch {
+    pub fn new(tracer: &Tracer) -> Scratch {
+        Scratch { branches: Vec::new(), start: tracer.world.media_at(tracer.world.camera.eye) }
+    }
+}
+
+impl Tracer<'_> {
+    /// The sample at `film` (pixels from the top left corner) of a sequence.
+    pub fn sample(&self, film: DVec2, sequence: Sequence, scratch: &mut Scratch, tally: &mut Tally) -> Sample {
+        let camera = &self.world.camera;
+        let lens = if camera.lens_radius > 0.0 {
+            crate::math::sampling::disk(sequence.dimension(LENS).pair())
+        } else {
+            DVec2::ZERO
+        };
+        tally.rays.camera += 1;
+        tally.health.samples += 1;
+        let mut sample = Sample::default();
+        scratch.branches.clear();
+        scratch.branches.push(Branch {
+            ray: camera.ray(film, lens),
+            throughput: Vec3::ONE,
+            media: scratch.start,
+            cone: Cone { width: 0.0, spread: camera.pixel_spread() },
+            depth: 0,
+            sequence,
+            class: Class::Direct,
+        });
+        while let Some(branch) = scratch.branches.pop() {
+            self.follow(branch, &mut sample, &mut scratch.branches, tally);
+        }
+        sample
+    }
+
+    fn follow(&self, branch: Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
+        let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
+            return deposit(sample, branch.class, branch.throughput * self.leaving(&branch));
+        };
+        let surface = self.world.surface(&branch.ray, &hit);
+        let branch = Branch { throughput: branch.throughput * self.transmittance(&branch.media, surface.t), ..branch };
+        let wo = -branch.ray.dir;
+        let shading = Shading::new(self.world, &surface, wo, &branch.cone);
+        if self.wants.first_hit && branch.depth == 0 {
+            sample.first = self.first_hit(&surface, &shading);
+        }
+        if let Some((after, tolerance)) = self.crossing(&branch, &surface, &shading, tally) {
+            if after.top() == branch.media.top() {
+                // Within an object of higher priority this surface does not exist.
+                let ray = Ray::leaving(surface.p, tolerance, surface.ng, branch.ray.dir);
+                let next = Branch { ray, media: after, cone: branch.cone.after(surface.t), ..branch };
+                return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
+            }
+            self.interface(&branch, &surface, &shading, after, tolerance, todo, tally);
+        }
+        let radiance = shading.emitted() + self.shaded(&branch, &surface, &shading, tally);
+        deposit(sample, branch.class, branch.throughput * radiance);
+        if shading.km != Vec3::ZERO {
+            let wi = self.above(reflected(wo, shading.ns), &shading, tally);
+            let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
+            let next = Branch { ray, cone: branch.cone.after(surface.t), ..branch };
+            tally.rays.reflection += 1;
+            self.push(next, shading.km, MIRROR, Class::Reflection, todo, tally);
+        }
+    }
+
+    /// What a ray meets that leaves the scene.
+    fn leaving(&self, branch: &Branch) -> Vec3 {
+        let world = self.world;
+        let (_, absorption) = world.medium(&branch.media);
+        if absorption != Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        match &world.environment {
+            Some(environment) if world.environment_visible => environment.radiance(branch.ray.dir),
+            _ => world.background,
+        }
+    }
+
+    /// Beer–Lambert over `t` metres of the medium.
+    pub(super) fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
+        let (_, absorption) = self.world.medium(media);
+        if absorption == Vec3::ZERO {
+            return Vec3::ONE;
+        }
+        Vec3::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
+    }
+
+    /// The media behind a transmissive surface, with the offset that clears all surfaces that
+    /// coincide with it. `None` where nothing is transmitted.
+    fn crossing(
+        &self,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        tally: &mut Tally,
+    ) -> Option<(MediaSet, f64)> {
+        let world = self.world;
+        let rank = world.instances[surface.instance as usize].rank;
+        if rank == 0 || shading.kt == Vec3::ZERO {
+            return None;
+        }
+        let dir = branch.ray.dir;
+        let mut cross = |media: MediaSet, rank, inwards| {
+            media.crossed(rank, inwards).unwrap_or_else(|| {
+                tally.health.count(Rare::MediaOverflow);
+                media
+            })
+        };
+        let mut after = cross(branch.media, rank, dir.dot(surface.ng) < 0.0);
+        if world.coincidence == 0.0 {
+            return Some((after, surface.p_error));
+        }
+        let tolerance = 2.0 * world.coincidence.max(surface.p_error);
+        world.coincident(surface.p, surface.ng, dir, surface.instance, tolerance, |rank, inwards| {
+            after = cross(after, rank, inwards);
+        });
+        Some((after, 2.0 * tolerance))
+    }
+
+    /// Pushes the reflected and the refracted branch of an interface.
+    #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
+    fn interface(
+        &self,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        after: MediaSet,
+        tolerance: f64,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) {
+        let wo = -branch.ray.dir;
+        let (near, _) = self.world.medium(&branch.media);
+        let (far, _) = self.world.medium(&after);
+        let eta = far / near;
+        let n = shading.ns;
+        let interface = Interface::new(wo.dot(n).max(0.0), eta);
+        let weight = (Vec3::ONE - shading.km) * shading.kt;
+        let cone = branch.cone.after(surface.t);
+        if interface.reflectance > 0.0 {
+            let wi = self.above(reflected(wo, n), shading, tally);
+            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            tally.rays.reflection += 1;
+            let weight = weight * interface.reflectance as f32;
+            self.push(Branch { ray, cone, ..*branch }, weight, REFLECTED, Class::Reflection, todo, tally);
+        }
+        if interface.reflectance < 1.0 {
+            let mut wi = refracted(wo, n, eta, interface.cos_t);
+            if wi.dot(shading.ng) >= 0.0 {
+                tally.health.count(Rare::DirectionThroughSurface);
+                let flat = Interface::new(wo.dot(shading.ng).max(0.0), eta);
+                if flat.reflectance == 1.0 {
+                    return;
+                }
+                wi = refracted(wo, shading.ng, eta, flat.cos_t);
+            }
+            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            tally.rays.refraction += 1;
+            let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
+            let next = Branch { ray, media: after, cone: cone.refracted(eta), ..*branch };
+            self.push(next, weight, REFRACTED, Class::Refraction, todo, tally);
+        }
+    }
+
+    /// A mirrored direction that a bent shading normal has sent below the surface, mirrored back up.
+    fn above(&self, wi: DVec3, shading: &Shading, tally: &mut Tally) -> DVec3 {
+        let height = wi.dot(shading.ng);
+        if height > 0.0 {
+            return wi;
+        }
+        tally.health.count(Rare::DirectionThroughSurface);
+        (wi - shading.ng * (2.0 * height)).normalize()
+    }
+
+    /// Adds a branch, or drops it by chance in proportion to its weight, or by the depth limit.
+    fn push(
+        &self,
+        mut branch: Branch,
+        weight: Vec3,
+        event: u64,
+        class: Class,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) {
+        branch.throughput *= weight;
+        branch.depth += 1;
+        branch.sequence = branch.sequence.dimension(event);
+        branch.class = branch.class.then(class);
+        let heaviest = branch.throughput.max_element();
+        if heaviest <= 0.0 || heaviest.is_nan() {
+            return;
+        }
+        if branch.depth > self.plan.max_depth {
+            tally.health.count(Rare::DepthLimit);
+            return;
+        }
+        let survival = f64::from(heaviest) / self.plan.split_weight;
+        if survival < 1.0 {
+            if branch.sequence.dimension(ROULETTE).value() >= survival {
+                return;
+            }
+            branch.throughput /= survival as f32;
+        }
+        todo.push(branch);
+    }
+
+    fn shaded(&self, branch: &Branch, surface: &Surface, shading: &Shading, tally: &mut Tally) -> Vec3 {
+        let base = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt) * shading.kd;
+        if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        base * self.world.ambient
+            + self.direct(base, surface, shading, &branch.media, branch.sequence.dimension(LIGHTS), tally)
+    }
+
+    fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {
+        let world = self.world;
+        let specular = shading.km.max(shading.kt);
+        FirstHit {
+            albedo: shading.kd * (Vec3::ONE - specular) + specular,
+            normal: shading.ns.as_vec3(),
+            depth: (surface.p - world.camera.eye).dot(world.camera.forward) as f32,
+            position: (surface.p + world.origin).as_vec3(),
+            object: world.instances[surface.instance as usize].object + 1,
+        }
+    }
+}
+
+fn deposit(sample: &mut Sample, class: Class, radiance: Vec3) {
+    sample.radiance += radiance;
+    match class {
+        Class::Direct => sample.direct += radiance,
+        Class::Reflection => sample.reflection += radiance,
+        Class::Refraction => sample.refraction += radiance,
+    }
+}

@@ -1,0 +1,45 @@
+//! What one camera sample yields.
+
+use crate::math::Vec3;
+
+/// What is wanted of every sample beyond its radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// Albedo, normal, depth, position, object.
+    pub first_hit: bool,
+    /// Direct, reflected and refracted light apart.
+    pub split: bool,
+    pub variance: bool,
+}
+
+/// The radiance along one camera ray, W·m⁻²·sr⁻¹, and what the ray met first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    pub radiance: Vec3,
+    /// Light by the first specular event on its way from the eye; their sum is `radiance`.
+    pub direct: Vec3,
+    pub reflection: Vec3,
+    pub refraction: Vec3,
+    pub first: FirstHit,
+}
+
+/// The first surface that a camera ray meets; all zero where it meets none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FirstHit {
+    /// Diffuse colour; white for what only reflects and transmits.
+    pub albedo: Vec3,
+    /// Shading normal, world space.
+    pub normal: Vec3,
+    /// Distance from the eye along the view direction, metres.
+    pub depth: f32,
+    /// Scene coordinates, metres.
+    pub position: Vec3,
+    /// Index of the object plus one.
+    pub object: u32,
+}
+
+impl Sample {
+    pub fn is_finite(&self) -> bool {
+        self.radiance.is_finite()
+    }
+}

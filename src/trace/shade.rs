@@ -1,0 +1,72 @@
+//! The material at a surface point: weights looked up, normal bent, sides told apart.
+
+use super::footprint::{Cone, texture_point};
+use crate::build::{Surface, World};
+use crate::math::{DVec3, Vec3};
+use crate::optics::{Material, Relief, TexturePoint, bumped_normal, perturbed_normal_from_map};
+
+/// A surface point ready for shading. Both normals are turned to the side of `wo`.
+pub struct Shading<'a> {
+    pub material: &'a Material,
+    pub wo: DVec3,
+    pub ng: DVec3,
+    pub ns: DVec3,
+    /// Whether `wo` is on the outside.
+    pub outside: bool,
+    pub kd: Vec3,
+    pub ks: Vec3,
+    pub km: Vec3,
+    pub kt: Vec3,
+    emission: Vec3,
+}
+
+impl<'a> Shading<'a> {
+    pub fn new(world: &'a World, surface: &Surface, wo: DVec3, cone: &Cone) -> Shading<'a> {
+        let material = &world.materials[surface.material.0 as usize];
+        let point =
+            if material.textured { texture_point(surface, wo, cone) } else { plain_point(surface) };
+        let at = |weight: &crate::optics::Weight| weight.at(&world.textures, || point);
+        let outside = wo.dot(surface.ng) >= 0.0;
+        let ns = bent_normal(world, material, surface, &point);
+        let turn = if outside { 1.0 } else { -1.0 };
+        Shading {
+            material,
+            wo,
+            ng: surface.ng * turn,
+            ns: ns * turn,
+            outside,
+            kd: at(&material.diffuse),
+            ks: at(&material.specular),
+            km: at(&material.reflection),
+            kt: at(&material.transmission),
+            emission: if outside || material.emits_back { at(&material.emission) } else { Vec3::ZERO },
+        }
+    }
+
+    /// Radiance that the surface itself sends towards `wo`.
+    pub fn emitted(&self) -> Vec3 {
+        self.emission
+    }
+}
+
+fn plain_point(surface: &Surface) -> TexturePoint {
+    TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 }
+}
+
+/// The shading normal after bump and normal maps, in the hemisphere of the geometric one.
+fn bent_normal(world: &World, material: &Material, surface: &Surface, point: &TexturePoint) -> DVec3 {
+    let mut ns = surface.ns;
+    for relief in &material.relief {
+        ns = match *relief {
+            Relief::NormalMap { texture, strength } => {
+                let rgb = world.textures[texture.0 as usize].color(point);
+                perturbed_normal_from_map(rgb, strength, ns, surface.dpdu, surface.dpdv)
+            }
+            Relief::BumpMap { texture, height } => {
+                let slope = world.textures[texture.0 as usize].slope(point, surface.dpdu, surface.dpdv);
+                bumped_normal(slope * height, ns, surface.ng, surface.dpdu, surface.dpdv)
+            }
+        };
+    }
+    if ns.dot(surface.ng) > 0.0 { ns } else { surface.ns }
+}

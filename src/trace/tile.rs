@@ -1,0 +1,191 @@
+//! A tile: a rectangle of pixels with what the passes sum up to.
+//!
+//! Each tile has its own sums, so that tiles are worked on side by side and nothing is shared. Sums
+//! are double precision and taken in the order of the passes: the size of the tiles and the number
+//! of threads change nothing.
+
+use crate::math::DVec3;
+
+/// A pixel's value in one pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PixelValue {
+    pub radiance: DVec3,
+    pub direct: DVec3,
+    pub reflection: DVec3,
+    pub refraction: DVec3,
+    pub albedo: DVec3,
+    pub normal: DVec3,
+    pub position: DVec3,
+    pub depth: f64,
+    /// Index of the object plus one, of the first sample.
+    pub object: u32,
+    /// Samples, or cells of the adaptive subdivision, that the value is made of.
+    pub samples: u32,
+}
+
+/// What the film keeps beyond radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layers {
+    pub first_hit: bool,
+    pub split: bool,
+    pub variance: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct FirstHitSums {
+    albedo: DVec3,
+    normal: DVec3,
+    position: DVec3,
+    depth: f64,
+    object: u32,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct SplitSums {
+    direct: DVec3,
+    reflection: DVec3,
+    refraction: DVec3,
+}
+
+/// A rectangle of pixels with its sums. Layers that are not kept take no memory.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+    radiance: Vec<DVec3>,
+    passes: Vec<u32>,
+    samples: Vec<u64>,
+    split: Vec<SplitSums>,
+    first: Vec<FirstHitSums>,
+    /// Σ (x − mean)², by Welford's recurrence.
+    squares: Vec<DVec3>,
+}
+
+impl Tile {
+    pub fn new(x: u32, y: u32, width: u32, height: u32, layers: Layers) -> Tile {
+        let n = width as usize * height as usize;
+        let if_kept = |kept: bool| if kept { n } else { 0 };
+        Tile {
+            x,
+            y,
+            width,
+            height,
+            radiance: vec![DVec3::ZERO; n],
+            passes: vec![0; n],
+            samples: vec![0; n],
+            split: vec![SplitSums::default(); if_kept(layers.split)],
+            first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
+            squares: vec![DVec3::ZERO; if_kept(layers.variance)],
+        }
+    }
+
+    /// Image coordinates of the tile's pixels, row by row.
+    pub fn pixels(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (x0, y0, w, h) = (self.x, self.y, self.width, self.height);
+        (y0..y0 + h).flat_map(move |y| (x0..x0 + w).map(move |x| (x, y)))
+    }
+
+    fn index(&self, x: u32, y: u32) -> usize {
+        (y - self.y) as usize * self.width as usize + (x - self.x) as usize
+    }
+
+    /// Adds a pass's value to a pixel of the tile, given in image coordinates.
+    pub fn add(&mut self, x: u32, y: u32, value: &PixelValue) {
+        let i = self.index(x, y);
+        let before = f64::from(self.passes[i]);
+        if let Some(squares) = self.squares.get_mut(i) {
+            // Welford 1962: M₂ += (x − old mean)·(x − new mean).
+            let old = if before == 0.0 { DVec3::ZERO } else { self.radiance[i] / before };
+            let new = (self.radiance[i] + value.radiance) / (before + 1.0);
+            *squares += (value.radiance - old) * (value.radiance - new);
+        }
+        self.radiance[i] += value.radiance;
+        self.passes[i] += 1;
+        self.samples[i] += u64::from(value.samples);
+        if let Some(split) = self.split.get_mut(i) {
+            split.direct += value.direct;
+            split.reflection += value.reflection;
+            split.refraction += value.refraction;
+        }
+        if let Some(first) = self.first.get_mut(i) {
+            first.albedo += value.albedo;
+            first.normal += value.normal;
+            first.position += value.position;
+            first.depth += value.depth;
+            if before == 0.0 {
+                first.object = value.object;
+            }
+        }
+    }
+}
+
+/// A layer of the finished image that can be read off the sums.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    Radiance,
+    Direct,
+    Reflection,
+    Refraction,
+    /// Of the mean over passes; needs two passes or more.
+    Variance,
+    Albedo,
+    Normal,
+    Position,
+    Depth,
+    Object,
+    /// Samples a pixel over all passes.
+    Samples,
+    /// Samples a pixel and pass, relative to the most divided pixel: where antialiasing went.
+    Edges,
+}
+
+impl Tile {
+    /// Samples over all pixels and passes.
+    pub fn samples(&self) -> u64 {
+        self.samples.iter().sum()
+    }
+
+    pub fn memory_bytes(&self) -> usize {
+        self.radiance.len() * (size_of::<DVec3>() + size_of::<u32>() + size_of::<u64>())
+            + self.split.len() * size_of::<SplitSums>()
+            + self.first.len() * size_of::<FirstHitSums>()
+            + self.squares.len() * size_of::<DVec3>()
+    }
+
+    /// Samples a pass of each pixel.
+    pub fn samples_per_pass(&self) -> impl Iterator<Item = f64> {
+        self.samples.iter().zip(&self.passes).map(|(&s, &p)| s as f64 / f64::from(p.max(1)))
+    }
+
+    /// The value of a layer at a pixel given in image coordinates; `most` is the largest number of
+    /// samples a pixel and pass in the image.
+    pub fn value(&self, x: u32, y: u32, layer: Layer, most: f64) -> DVec3 {
+        let i = self.index(x, y);
+        let passes = f64::from(self.passes[i].max(1));
+        let first = || self.first.get(i).copied().unwrap_or_default();
+        let split = || self.split.get(i).copied().unwrap_or_default();
+        match layer {
+            Layer::Radiance => self.radiance[i] / passes,
+            Layer::Direct => split().direct / passes,
+            Layer::Reflection => split().reflection / passes,
+            Layer::Refraction => split().refraction / passes,
+            Layer::Variance => {
+                let squares = self.squares.get(i).copied().unwrap_or_default();
+                squares / (passes * (passes - 1.0).max(1.0))
+            }
+            Layer::Albedo => first().albedo / passes,
+            Layer::Normal => first().normal / passes,
+            Layer::Position => first().position / passes,
+            Layer::Depth => DVec3::splat(first().depth / passes),
+            Layer::Object => DVec3::splat(f64::from(first().object)),
+            Layer::Samples => DVec3::splat(self.samples[i] as f64),
+            Layer::Edges => {
+                let floor = 1.0;
+                let share = (self.samples[i] as f64 / passes - floor) / (most - floor).max(1.0);
+                DVec3::splat(share.clamp(0.0, 1.0))
+            }
+        }
+    }
+}
