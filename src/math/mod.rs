@@ -7,6 +7,8 @@ mod frame;
 mod placement;
 pub mod random;
 mod ray;
+pub mod robust;
+pub mod sampling;
 
 pub use aabb::{Aabb, round_down, round_up};
 pub use frame::Frame;

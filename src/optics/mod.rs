@@ -3,6 +3,13 @@
 //!
 //! Directions `wo` (known) and `wi` (sampled) both point away from the surface.
 
+mod mesh;
+mod shape;
 mod surface;
 
+pub use mesh::TriangleMesh;
+pub use shape::{
+    AreaSample, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid, Sphere,
+    sample_triangle_direction, triangle_direction_pdf,
+};
 pub use surface::LocalSurface;
