@@ -3,6 +3,10 @@
 //!
 //! Directions `wo` (known) and `wi` (sampled) both point away from the surface.
 
+pub mod environment;
 mod surface;
+pub mod texture;
 
+pub use environment::{Environment, EnvironmentSample};
 pub use surface::LocalSurface;
+pub use texture::{Texture, TexturePoint};
