@@ -15,11 +15,12 @@ pub(super) fn mesh(mut faces: Faces) -> Result<ObjMesh, Fault> {
     let crossing = cut_polygons(&mut faces)?;
     let notes = std::mem::take(&mut faces.notes);
     let parts = std::mem::take(&mut faces.parts);
+    let missing = [&faces.vn, &faces.vt].map(|column| column.iter().filter(|&&i| i == NONE).count());
     let (positions, corners) = unify(faces, &mut mesh);
     place(&positions, &mut mesh)?;
     drop(positions);
     keep_triangles(&corners, parts, &mut mesh)?;
-    describe(&notes, crossing, &mut mesh);
+    describe(&notes, crossing, missing, &mut mesh);
     Ok(mesh)
 }
 
@@ -130,34 +131,35 @@ impl Unified {
 
     fn add(&mut self, v: u32, vt: u32, vn: u32) -> u32 {
         let key = [v, vt, vn];
-        let new = self.keys.len() as u32;
-        let mut link = &mut self.first[v as usize];
-        if *link == NONE {
-            *link = new;
-        } else {
-            let mut at = *link;
-            for _ in 0..LONGEST_CHAIN {
-                if self.keys[at as usize] == key {
-                    return at;
-                }
-                link = &mut self.next[at as usize];
-                if *link == NONE {
-                    break;
-                }
-                at = *link;
-            }
-            if *link == NONE {
-                *link = new;
-            } else {
-                let known = *self.rest.entry(key).or_insert(new);
-                if known != new {
-                    return known;
-                }
-            }
+        if self.first[v as usize] == NONE {
+            self.first[v as usize] = self.keys.len() as u32;
+            return self.push(key);
         }
+        let mut at = self.first[v as usize] as usize;
+        for _ in 1..LONGEST_CHAIN {
+            if self.keys[at] == key {
+                return at as u32;
+            }
+            if self.next[at] == NONE {
+                self.next[at] = self.keys.len() as u32;
+                return self.push(key);
+            }
+            at = self.next[at] as usize;
+        }
+        if self.keys[at] == key {
+            return at as u32;
+        }
+        if let Some(&known) = self.rest.get(&key) {
+            return known;
+        }
+        self.rest.insert(key, self.keys.len() as u32);
+        self.push(key)
+    }
+
+    fn push(&mut self, key: [u32; 3]) -> u32 {
         self.keys.push(key);
         self.next.push(NONE);
-        new
+        self.keys.len() as u32 - 1
     }
 }
 
@@ -217,8 +219,8 @@ fn is_flat(positions: &[Vec3], &[a, b, c]: &[u32; 3]) -> bool {
     (b - a).cross(c - a) == DVec3::ZERO
 }
 
-fn describe(notes: &Notes, crossing: usize, mesh: &mut ObjMesh) {
-    let unset = |n: usize, of: &str| format!("{n} of {} vertices have no {of}", mesh.positions.len());
+/// `missing` is of normals and uvs, in corners of triangles.
+fn describe(notes: &Notes, crossing: usize, missing: [usize; 2], mesh: &mut ObjMesh) {
     let mut say = |n: usize, one: &str, many: &str| match n {
         0 => {}
         1 => mesh.warnings.push(format!("1 {one}")),
@@ -236,10 +238,10 @@ fn describe(notes: &Notes, crossing: usize, mesh: &mut ObjMesh) {
         "texture coordinate is not finite: taken as (0, 0)",
         "texture coordinates are not finite: taken as (0, 0)",
     );
-    let without_normal = mesh.normals.iter().filter(|&&n| n == Vec3::ZERO).count();
-    if without_normal > 0 && notes.bad_normals == 0 {
-        mesh.warnings.push(unset(without_normal, "normal: the geometric normals stand in"));
-    }
+    let one = "corner without a normal among others with one: the geometric normal stands in";
+    say(missing[0], one, "corners without a normal among others with one: the geometric normals stand in");
+    let one = "corner without texture coordinates among others with them: taken as (0, 0)";
+    say(missing[1], one, "corners without texture coordinates among others with them: taken as (0, 0)");
     if notes.several_smoothings && mesh.normals.is_empty() {
         mesh.warnings.push("smoothing groups are ignored".into());
     }

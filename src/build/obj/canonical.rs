@@ -50,7 +50,7 @@ impl<R: BufRead> Canonical<R> {
         Canonical {
             source,
             raw: Vec::new(),
-            out: b"vt nan nan\nvn 0 0 0\n".to_vec(),
+            out: b"vt nan nan\nvn nan nan nan\n".to_vec(),
             taken: 0,
             lines: 0,
             line: 0,
@@ -97,8 +97,7 @@ impl<R: BufRead> Canonical<R> {
                 return Err(Fault::NotSupported(Some(self.line), message));
             }
             let text = self.raw.trim_ascii_end();
-            let is_comment = text.trim_ascii_start().starts_with(b"#");
-            if is_comment || !text.ends_with(b"\\") {
+            if !text.ends_with(b"\\") || without_comment(text) != text {
                 return Ok(true);
             }
             let end = text.len() - 1;
@@ -143,10 +142,7 @@ impl<R: BufRead> Canonical<R> {
 
     fn position<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Checked<()> {
         let values = numbers(words, "a position", 3, 7)?;
-        let divisor = match values.len() {
-            4 | 7 => values[3],
-            _ => 1.0,
-        };
+        let divisor = if matches!(values.len(), 4 | 7) { values[3] } else { 1.0 };
         let at = [0, 1, 2].map(|k| values[k] / divisor);
         if divisor == 0.0 || !at.iter().all(|x| x.is_finite()) {
             return Err("a position is not finite".into());

@@ -61,7 +61,7 @@ fn gather(model: Model, faces: &mut Faces, place_of: &mut [u32], face_count: &mu
             faces.positions.push(DVec3::from(position));
         }
     }
-    // "Missing" was put in as a normal of no direction and as a uv that is no number.
+    // "Missing" was put in as what is no number.
     let uvs: Vec<u32> = (mesh.texcoords.as_chunks::<2>().0.iter())
         .map(|&uv| {
             if uv[0].is_nan() {
@@ -73,8 +73,11 @@ fn gather(model: Model, faces: &mut Faces, place_of: &mut [u32], face_count: &mu
         .collect();
     let normals: Vec<u32> = (mesh.normals.as_chunks::<3>().0.iter())
         .map(|&normal| {
+            if normal[0].is_nan() {
+                return NONE;
+            }
             faces.normals.push(direction(normal));
-            if normal == [0.0; 3] { NONE } else { faces.normals.len() as u32 - 1 }
+            faces.normals.len() as u32 - 1
         })
         .collect();
     for (k, &i) in mesh.indices.iter().enumerate() {
