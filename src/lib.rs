@@ -9,3 +9,5 @@ pub mod math;
 pub mod optics;
 
 pub mod description;
+
+pub mod output;
