@@ -33,28 +33,26 @@ impl Pending {
     pub fn create(target: &Path) -> io::Result<Self> {
         // a link is kept and what it points to is replaced
         let target = if target.is_symlink() { fs::canonicalize(target)? } else { target.to_path_buf() };
-        match fs::metadata(&target) {
-            Ok(found) if found.is_dir() => {
-                return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder"));
+        let found = fs::metadata(&target).ok();
+        let refused = |kind, reason: &str| Err(io::Error::new(kind, reason));
+        if let Some(found) = &found {
+            if found.is_dir() {
+                return refused(io::ErrorKind::IsADirectory, "is a folder");
             }
-            Ok(found) if !found.is_file() => {
+            if !found.is_file() {
                 let file = OpenOptions::new().write(true).open(&target)?;
                 return Ok(Pending { file, temporary: None, target });
             }
-            Ok(found) if found.permissions().readonly() => {
-                return Err(io::Error::new(io::ErrorKind::PermissionDenied, "exists and is read-only"));
-            }
-            Ok(found) => {
-                let (file, temporary) = create_beside(&target)?;
-                let pending = Pending { file, temporary: Some(temporary), target };
-                pending.file.set_permissions(found.permissions())?;
-                Ok(pending)
-            }
-            Err(_) => {
-                let (file, temporary) = create_beside(&target)?;
-                Ok(Pending { file, temporary: Some(temporary), target })
+            if found.permissions().readonly() {
+                return refused(io::ErrorKind::PermissionDenied, "exists and is read-only");
             }
         }
+        let (file, temporary) = create_beside(&target)?;
+        let pending = Pending { file, temporary: Some(temporary), target };
+        if let Some(found) = found {
+            pending.file.set_permissions(found.permissions())?;
+        }
+        Ok(pending)
     }
 
     /// Flushes the bytes and gives the file its name.
