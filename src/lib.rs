@@ -11,3 +11,5 @@ pub mod optics;
 pub mod description;
 
 pub mod output;
+
+pub mod render;
