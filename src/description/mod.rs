@@ -26,3 +26,6 @@ pub use settings::{Antialiasing, Image, Render};
 pub use texture::{ColorSpace, Texture, UvMapping, Wrap};
 pub use transform::{Scale, Transform};
 pub use value::{Rgb, Source, TextureRef, Vector};
+
+mod stub;
+pub use stub::{Diagnostic, Format, Loaded, Report, Severity, json_schema, load, load_str, to_string};

@@ -1,0 +1,214 @@
+//! The arguments, as typed.
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use terrarium::render::Aov;
+
+const EXAMPLES: &str = "\
+Examples:
+  terrarium render scene.ron -o image.exr -o image.png
+  terrarium render scene.toml -o - --set materials.glass.ior=1.33 | viewer -
+  terrarium check scenes/*.ron
+  terrarium convert scene.ron scene.toml
+
+Exit codes: 0 done; 1 the render failed; 2 the scene is invalid or the call is wrong;
+3 a file can't be read; 4 an output can't be written (tested before the first ray).";
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  terrarium render scene.ron -o image.exr
+  terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
+  terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
+  generate | terrarium render - --scene-format toml -o - --format png > image.png";
+
+/// Renders light that passes through glass and water, from declarative scene files.
+#[derive(Debug, Parser)]
+#[command(name = "terrarium", version, long_version = LONG_VERSION, after_help = EXAMPLES, max_term_width = 100)]
+#[command(arg_required_else_help = true)]
+pub struct Args {
+    /// When to colour messages; NO_COLOR and CLICOLOR_FORCE are kept by `auto`
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        value_name = "WHEN",
+        default_value_t,
+        hide_possible_values = false
+    )]
+    pub color: ColorChoice,
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const LONG_VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    "\nscenes: RON, TOML; images: EXR (32-bit float), PNG (8, 16 bits)\nlicence: ",
+    env!("CARGO_PKG_LICENSE"),
+);
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to one or several images
+    #[command(after_help = RENDER_EXAMPLES)]
+    Render(Box<RenderArgs>),
+    /// Report every mistake in scene files, without rendering
+    Check(CheckArgs),
+    /// Rewrite a scene in the other format, RON or TOML
+    Convert(ConvertArgs),
+    /// Print the JSON Schema of scenes, for completion in editors
+    #[command(after_help = "Save it beside the scenes and begin a TOML scene with\n  \
+                            #:schema ./terrarium.schema.json")]
+    Schema,
+    /// Print the completion script of a shell
+    #[command(after_help = "Example:\n  terrarium completions bash > \
+                            ~/.local/share/bash-completion/completions/terrarium")]
+    Completions { shell: clap_complete::Shell },
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct RenderArgs {
+    /// The scene, .ron or .toml; `-` reads it from standard input
+    pub scene: PathBuf,
+    /// The image to write, .exr or .png; `-` is standard output; may be given several times
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// Format of the image that goes to standard output
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
+    pub format: ImageFormat,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Independent passes whose mean is the image; the scene's if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub passes: Option<u32>,
+    /// Seed of every random value; the scene's if not given
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; as many as the machine runs at once if not given. The image does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Further layers of the EXR: albedo, normal, depth, position, object_id, samples, direct,
+    /// reflection, refraction, variance, edges
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
+    pub aov: Vec<Aov>,
+    /// Edge of a tile in pixels. The image does not depend on it
+    #[arg(long, value_name = "PIXELS", default_value_t = 32,
+          value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub tile: u32,
+    /// Fail when more rare events happen than are allowed
+    #[arg(long)]
+    pub strict: bool,
+    /// Write the time and the machine's name into the image. SOURCE_DATE_EPOCH replaces the time
+    /// and leaves out the name
+    #[arg(long)]
+    pub stamp: bool,
+    /// Write statistics as JSON; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+    /// Write a rule for make: which files the images depend on
+    #[arg(long, value_name = "FILE")]
+    pub depfile: Option<PathBuf>,
+    /// How to show progress; `auto` is a bar on a terminal and plain lines elsewhere
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub progress: ProgressChoice,
+    /// Print only warnings and errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Print the plan and the files that were read
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+/// How a scene is read.
+#[derive(Debug, ClapArgs)]
+pub struct Reading {
+    /// Replace a value of the scene, such as `materials.glass.ior=1.33`; may be given several times
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Format of a scene that comes from standard input
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub scene_format: Option<SceneFormat>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    /// Scenes, .ron or .toml; `-` reads one from standard input
+    #[arg(required = true)]
+    pub scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// `text` goes to standard error, `json` to standard output
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
+    pub format: CheckFormat,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct ConvertArgs {
+    /// The scene to read; `-` is standard input
+    pub input: PathBuf,
+    /// The file to write, .ron or .toml; `-` is standard output
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Format to write; needed for standard output, else it follows from the file's name
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub to: Option<SceneFormat>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ColorChoice {
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ImageFormat {
+    #[default]
+    Exr,
+    Png,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SceneFormat {
+    Ron,
+    Toml,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum CheckFormat {
+    #[default]
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ProgressChoice {
+    #[default]
+    Auto,
+    /// One line that is drawn over
+    Bar,
+    /// A line every 10 % or 30 seconds
+    Plain,
+    None,
+    /// One JSON object a line
+    Json,
+}
+
+impl From<SceneFormat> for terrarium::description::Format {
+    fn from(format: SceneFormat) -> Self {
+        match format {
+            SceneFormat::Ron => terrarium::description::Format::Ron,
+            SceneFormat::Toml => terrarium::description::Format::Toml,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_arguments_are_well_formed() {
+        use clap::CommandFactory;
+        super::Args::command().debug_assert();
+    }
+}

@@ -1,0 +1,79 @@
+//! `check`, and reading a scene for every command.
+
+use super::args::{CheckArgs, CheckFormat, Reading};
+use super::exit::{Failure, UNREADABLE, USAGE};
+use super::report::{self, Terminal};
+use std::io::Read;
+use std::path::Path;
+use terrarium::description::{self, Loaded, Report};
+
+/// A scene on standard input ends here; larger ones are mistakes.
+const LONGEST_INPUT: u64 = 256 << 20;
+
+/// Checks every scene and reports all mistakes; the worst exit code counts.
+pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
+    let mut results = Vec::new();
+    let mut worst = 0;
+    for scene in &args.scenes {
+        let (diagnostics, code) = match load(scene, &args.reading)? {
+            Ok(loaded) => (loaded.warnings, 0),
+            Err(report) => {
+                let code = report.exit_code();
+                (report.diagnostics, code)
+            }
+        };
+        worst = worst.max(code);
+        if args.format == CheckFormat::Text {
+            diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
+            let verdict = if code == 0 { "valid" } else { "invalid" };
+            terminal.say(&format!("{}: {verdict}", scene.display()));
+        } else {
+            results.push(serde_json::json!({
+                "file": scene.display().to_string(),
+                "valid": code == 0,
+                "diagnostics": diagnostics,
+            }));
+        }
+    }
+    if args.format == CheckFormat::Json {
+        report::print(&format!("{:#}\n", serde_json::Value::Array(results)))?;
+    }
+    if worst == 0 { Ok(()) } else { Err(Failure::new(worst, "")) }
+}
+
+/// Reads and checks a scene; `-` is standard input. The outer error is a wrong call.
+pub fn load(scene: &Path, reading: &Reading) -> Result<Result<Loaded, Report>, Failure> {
+    if scene != Path::new("-") {
+        return Ok(description::load(scene, &reading.set));
+    }
+    let Some(format) = reading.scene_format else {
+        return Err(Failure::new(USAGE, "a scene from standard input needs --scene-format ron or toml"));
+    };
+    let mut text = String::new();
+    let unreadable = |reason: &str| {
+        Failure::new(UNREADABLE, format!("can't read the scene from standard input: {reason}"))
+    };
+    let length = std::io::stdin()
+        .lock()
+        .take(LONGEST_INPUT + 1)
+        .read_to_string(&mut text)
+        .map_err(|error| unreadable(&error.to_string()))?;
+    if length as u64 > LONGEST_INPUT {
+        return Err(unreadable("it is longer than 256 MiB"));
+    }
+    Ok(description::load_str(&text, format.into(), Path::new("."), &reading.set))
+}
+
+/// Reads a scene and prints its mistakes and warnings.
+pub fn load_and_report(scene: &Path, reading: &Reading, terminal: &Terminal) -> Result<Loaded, Failure> {
+    match load(scene, reading)? {
+        Ok(loaded) => {
+            loaded.warnings.iter().for_each(|warning| terminal.diagnostic(warning));
+            Ok(loaded)
+        }
+        Err(report) => {
+            report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
+            Err(Failure::new(report.exit_code(), ""))
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Exit codes, and failures that carry one.
+
+use terrarium::output::OutputError;
+use terrarium::render::RenderError;
+
+/// The render failed.
+pub const FAILED: u8 = 1;
+/// The scene is invalid, or the program was called wrongly.
+pub const USAGE: u8 = 2;
+/// A file that is read is missing or can't be read.
+pub const UNREADABLE: u8 = 3;
+/// A file can't be written.
+pub const NOT_WRITABLE: u8 = 4;
+
+/// Why the program ends with a code other than 0; an empty message if all has been said.
+#[derive(Debug)]
+pub struct Failure {
+    pub code: u8,
+    pub message: String,
+}
+
+impl Failure {
+    pub fn new(code: u8, message: impl Into<String>) -> Self {
+        Failure { code, message: message.into() }
+    }
+
+    /// `path` could not be written.
+    pub fn writing(path: &str, error: impl std::fmt::Display) -> Self {
+        Failure::new(NOT_WRITABLE, format!("can't write {path}: {error}"))
+    }
+
+    /// Writing the image to `path` failed.
+    pub fn image(path: &str, error: OutputError) -> Self {
+        match error {
+            OutputError::Io(error) => Failure::writing(path, error),
+            other => Failure::new(FAILED, format!("can't write {path}: {other}")),
+        }
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        let code = match &error {
+            RenderError::NotSupported(_) | RenderError::Invalid(_) => USAGE,
+            RenderError::Io(_) => UNREADABLE,
+            RenderError::Failed(_) => FAILED,
+        };
+        Failure::new(code, error.to_string())
+    }
+}

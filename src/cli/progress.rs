@@ -1,0 +1,235 @@
+//! Progress: a bar on a terminal, plain lines elsewhere, or JSON.
+//!
+//! A stage never shows more than 99 %; the whole is done, and says so, when the images have their
+//! names. Off a terminal nothing is drawn over.
+
+use super::args::ProgressChoice;
+use super::report::Terminal;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use terrarium::render::Progress;
+
+/// Plain lines come after this time at the latest.
+const LONGEST_SILENCE: Duration = Duration::from_secs(30);
+/// JSON lines come no more often than this.
+const SHORTEST_SILENCE: Duration = Duration::from_millis(100);
+
+/// The progress of one render.
+pub struct Reporter {
+    form: Form,
+    terminal: Terminal,
+    stage: Mutex<Option<Stage>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Bar,
+    Plain,
+    Json,
+    None,
+}
+
+struct Stage {
+    name: String,
+    unit: String,
+    done: u64,
+    total: u64,
+    began: Instant,
+    /// When a line was printed last, and how much of the stage it told.
+    told: (Instant, f64),
+    bar: Option<ProgressBar>,
+}
+
+impl Reporter {
+    pub fn new(choice: ProgressChoice, quiet: bool, terminal: &Terminal) -> Self {
+        let form = match choice {
+            ProgressChoice::None => Form::None,
+            ProgressChoice::Json => Form::Json,
+            _ if quiet => Form::None,
+            ProgressChoice::Bar => Form::Bar,
+            ProgressChoice::Auto if terminal.redraws => Form::Bar,
+            ProgressChoice::Auto | ProgressChoice::Plain => Form::Plain,
+        };
+        Reporter { form, terminal: terminal.clone(), stage: Mutex::new(None) }
+    }
+
+    /// The images have their names: the whole is done.
+    pub fn complete(&self) {
+        self.finish();
+        if self.form == Form::Json {
+            self.terminal.say(&serde_json::json!({ "v": 1, "stage": "done", "done": 1.0 }).to_string());
+        }
+    }
+
+    fn stage(&self) -> MutexGuard<'_, Option<Stage>> {
+        // a panic elsewhere leaves the counts usable
+        self.stage.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tell(&self, stage: &Stage) {
+        match self.form {
+            Form::Plain => {
+                let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
+                let percent = (100.0 * stage.share()) as u32;
+                let rate = stage.rate();
+                self.terminal.say(&format!("{}: {percent} %, {rate}{left}", stage.name));
+            }
+            Form::Json => {
+                let line = serde_json::json!({
+                    "v": 1,
+                    "stage": stage.name,
+                    "done": stage.share(),
+                    "eta_s": stage.seconds_left(),
+                });
+                self.terminal.say(&line.to_string());
+            }
+            Form::Bar | Form::None => {}
+        }
+    }
+}
+
+impl Progress for Reporter {
+    fn start(&self, stage: &str, total: u64, unit: &str) {
+        self.finish();
+        let bar = (self.form == Form::Bar).then(|| {
+            let bar =
+                ProgressBar::with_draw_target(Some(total.max(1)), ProgressDrawTarget::stderr_with_hz(10));
+            let style = ProgressStyle::with_template("{prefix:10} {bar:30} {msg}");
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar.set_prefix(stage.to_string());
+            bar
+        });
+        let now = Instant::now();
+        let stage = Stage {
+            name: stage.to_string(),
+            unit: unit.to_string(),
+            done: 0,
+            total,
+            began: now,
+            told: (now, 0.0),
+            bar,
+        };
+        if self.form == Form::Json {
+            self.tell(&stage);
+        }
+        *self.stage() = Some(stage);
+    }
+
+    fn advance(&self, done: u64) {
+        let mut guard = self.stage();
+        let Some(stage) = guard.as_mut() else { return };
+        stage.done = stage.done.saturating_add(done);
+        if let Some(bar) = &stage.bar {
+            let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
+            bar.set_message(format!("{:2} %, {}{left}", (100.0 * stage.share()) as u32, stage.rate()));
+            bar.set_position(stage.done.min(stage.total.saturating_sub(1)));
+            return;
+        }
+        let silence = stage.told.0.elapsed();
+        let news = stage.share() - stage.told.1;
+        // short stages pass without a line
+        let due = match self.form {
+            Form::Json => silence >= SHORTEST_SILENCE,
+            _ => silence >= LONGEST_SILENCE || (news >= 0.1 && stage.began.elapsed().as_secs() >= 1),
+        };
+        if due {
+            self.tell(stage);
+            stage.told = (Instant::now(), stage.share());
+        }
+    }
+
+    fn finish(&self) {
+        if let Some(stage) = self.stage().take() {
+            if let Some(bar) = &stage.bar {
+                bar.finish_and_clear();
+            }
+            if self.form == Form::Json {
+                self.tell(&stage);
+            }
+        }
+    }
+
+    fn note(&self, message: &str) {
+        match (self.form, self.stage().as_ref().and_then(|stage| stage.bar.clone())) {
+            (Form::None, _) => {}
+            (Form::Json, _) => {
+                self.terminal.say(&serde_json::json!({ "v": 1, "note": message }).to_string());
+            }
+            (_, Some(bar)) => bar.suspend(|| self.terminal.say(message)),
+            (_, None) => self.terminal.say(message),
+        }
+    }
+}
+
+impl Stage {
+    /// How much of the stage is done, at most 0.99.
+    fn share(&self) -> f64 {
+        (self.done as f64 / self.total.max(1) as f64).min(0.99)
+    }
+
+    fn rate(&self) -> String {
+        let per_second = self.done as f64 / self.began.elapsed().as_secs_f64().max(1e-3);
+        format!("{} {}/s", short(per_second), self.unit)
+    }
+
+    /// At the rate so far; unknown before anything is done.
+    fn seconds_left(&self) -> Option<f64> {
+        let left = self.total.saturating_sub(self.done) as f64;
+        (self.done > 0)
+            .then(|| (self.began.elapsed().as_secs_f64() * left / self.done as f64 * 10.0).round() / 10.0)
+    }
+}
+
+/// A count with a prefix of the SI: `12.3 M`.
+pub fn short(value: f64) -> String {
+    match value {
+        v if v >= 1e9 => format!("{:.1} G", v / 1e9),
+        v if v >= 1e6 => format!("{:.1} M", v / 1e6),
+        v if v >= 1e4 => format!("{:.1} k", v / 1e3),
+        v if v >= 100.0 || v.fract() == 0.0 => format!("{v:.0}"),
+        v => format!("{v:.1}"),
+    }
+}
+
+/// `4.2 s`, `3 min 20 s`, `2 h 5 min`.
+pub fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        0..60 if seconds < 9.95 => format!("{seconds:.1} s"),
+        0..60 => format!("{whole} s"),
+        60..3600 => format!("{} min {} s", whole / 60, whole % 60),
+        _ => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_stage_shows_more_than_99_percent() {
+        let now = Instant::now();
+        let (name, unit) = ("trace".to_string(), "tiles".to_string());
+        let mut stage = Stage { name, unit, done: 0, total: 8, began: now, told: (now, 0.0), bar: None };
+        assert_eq!((stage.share(), stage.seconds_left()), (0.0, None));
+        stage.done = 4;
+        assert_eq!(stage.share(), 0.5);
+        stage.done = 8;
+        assert_eq!((stage.share(), stage.seconds_left()), (0.99, Some(0.0)));
+        stage.total = 0;
+        assert_eq!(stage.share(), 0.99);
+    }
+
+    #[test]
+    fn durations_and_counts_read_well() {
+        assert_eq!(
+            [0.04, 9.94, 59.0, 200.0, 7500.0].map(duration).join(" · "),
+            "0.0 s · 9.9 s · 59 s · 3 min 20 s · 2 h 5 min"
+        );
+        assert_eq!(
+            [3.0, 4.25, 123.4, 45_600.0, 12_340_000.0].map(short).join(" · "),
+            "3 · 4.2 · 123 · 45.6 k · 12.3 M"
+        );
+    }
+}

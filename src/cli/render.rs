@@ -1,0 +1,204 @@
+//! `render`: a scene in, images out.
+//!
+//! In this order: the call, the scene, whether the outputs can be written, the render, all images
+//! under temporary names, the dependency file, then the images' names. Whatever fails, a file that
+//! was there before stays as it was.
+
+use super::args::RenderArgs;
+use super::check::load_and_report;
+use super::exit::{FAILED, Failure, USAGE};
+use super::progress::Reporter;
+use super::report::{self, Terminal};
+use super::summary::{Summary, peak_bytes, worst};
+use super::target::{self, Target, png_settings, same_file, targets};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use terrarium::description::{Antialiasing, Loaded, Scene};
+use terrarium::output::{Stamp, atomic, depfile};
+use terrarium::render::{self, Options, Progress, Rendered};
+
+pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
+    let began = Instant::now();
+    let targets = targets(args)?;
+    refuse_mixed_up_files(args, &targets)?;
+    let stamp = args.stamp.then(stamp).transpose()?;
+    set_threads(args)?;
+    let loaded = load_and_report(&args.scene, &args.reading, terminal)?;
+    refuse_overwriting(&targets, &loaded.files)?;
+    probe(args, &targets)?;
+    let reporter = Reporter::new(args.progress, args.quiet, terminal);
+    if !args.quiet {
+        terminal.say(&announcement(args, &loaded.scene));
+    }
+
+    let mut rendered = render::render(&loaded, &options(args), &reporter).map_err(|error| {
+        reporter.finish();
+        Failure::from(error)
+    })?;
+    refuse_overwriting(&targets, &rendered.files)?;
+    rendered.provenance.stamp = stamp;
+
+    reporter.start("write", targets.len() as u64, "images");
+    let (mut staged, mut written) = (Vec::new(), Vec::new());
+    for target in &targets {
+        let settings = png_settings(&loaded.scene.image);
+        let (image, changed) = target.stage(&rendered.image, &rendered.provenance, settings)?;
+        staged.push(image);
+        written.push(changed);
+        reporter.advance(1);
+    }
+    // before the images: with them, make would take the old dependencies for current
+    write_depfile(args, &targets, &loaded, &rendered)?;
+    staged.into_iter().try_for_each(target::Staged::commit)?;
+    reporter.complete();
+
+    rendered.warnings.iter().for_each(|warning| terminal.warning(warning));
+    let written = worst(&written);
+    let summary = Summary {
+        version: env!("CARGO_PKG_VERSION"),
+        scene: args.scene.display().to_string(),
+        scene_hash: &rendered.provenance.scene_hash,
+        seed: rendered.provenance.seed,
+        width: rendered.image.width,
+        height: rendered.image.height,
+        outputs: args.output.iter().map(|path| path.display().to_string()).collect(),
+        threads: rayon::current_num_threads(),
+        seconds: began.elapsed().as_secs_f64(),
+        peak_bytes: peak_bytes(),
+        non_finite_values: written.non_finite,
+        clamped_pixels: written.clamped_pixels,
+        warnings: &rendered.warnings,
+        stats: &rendered.stats,
+    };
+    match args.stats.as_deref() {
+        Some(path) if path == Path::new("-") => report::print(&summary.json())?,
+        Some(path) => write_text(path, &summary.json())?,
+        None => {}
+    }
+    if !args.quiet {
+        summary.say(terminal);
+    }
+    if args.verbose {
+        verbose(&loaded, &rendered, terminal);
+    }
+    Ok(())
+}
+
+fn options(args: &RenderArgs) -> Options {
+    let mut aovs = Vec::new();
+    for aov in &args.aov {
+        if !aovs.contains(aov) {
+            aovs.push(*aov);
+        }
+    }
+    Options {
+        threads: args.threads.map(usize::from),
+        passes: args.passes,
+        seed: args.seed,
+        aovs,
+        tile: args.tile,
+        strict: args.strict,
+    }
+}
+
+/// The first line: what is rendered, how large, until when, with how many threads.
+fn announcement(args: &RenderArgs, scene: &Scene) -> String {
+    let default = if scene.antialiasing == Antialiasing::Progressive { 64 } else { 1 };
+    let passes = args.passes.or(scene.render.passes).unwrap_or(default);
+    let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+    let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
+    format!(
+        "{}: {} × {} pixels, {passes}, {}",
+        args.scene.display(),
+        scene.image.width,
+        scene.image.height,
+        plural(rayon::current_num_threads(), "thread")
+    )
+}
+
+/// Every stage that uses threads uses this many, writing included.
+fn set_threads(args: &RenderArgs) -> Result<(), Failure> {
+    let Some(threads) = args.threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|error| Failure::new(FAILED, format!("can't start {threads} threads: {error}")))
+}
+
+/// Images, statistics and dependency file must be different files.
+fn refuse_mixed_up_files(args: &RenderArgs, targets: &[Target]) -> Result<(), Failure> {
+    let mut files: Vec<&Path> = targets.iter().filter_map(Target::path).collect();
+    if args.depfile.is_some() && files.is_empty() {
+        return Err(Failure::new(USAGE, "--depfile needs an image that is a file"));
+    }
+    let stats = args.stats.as_deref().filter(|path| *path != Path::new("-"));
+    for file in [stats, args.depfile.as_deref()].into_iter().flatten() {
+        if files.iter().any(|other| same_file(other, file)) || same_file(file, &args.scene) {
+            return Err(Failure::new(USAGE, format!("{} is named for two purposes", file.display())));
+        }
+        files.push(file);
+    }
+    Ok(())
+}
+
+/// An image never replaces a file that it was made from.
+fn refuse_overwriting(targets: &[Target], inputs: &[PathBuf]) -> Result<(), Failure> {
+    let outputs = targets.iter().filter_map(Target::path);
+    for output in outputs {
+        if inputs.iter().any(|input| same_file(input, output)) {
+            let name = output.display();
+            return Err(Failure::new(USAGE, format!("{name} is read by the scene and can't be an output")));
+        }
+    }
+    Ok(())
+}
+
+/// Whether everything can be written, before the first ray.
+fn probe(args: &RenderArgs, targets: &[Target]) -> Result<(), Failure> {
+    let side = [args.stats.as_deref(), args.depfile.as_deref()].into_iter().flatten();
+    let side = side.filter(|path| *path != Path::new("-"));
+    for path in targets.iter().filter_map(Target::path).chain(side) {
+        atomic::probe(path).map_err(|error| Failure::writing(&path.display().to_string(), error))?;
+    }
+    Ok(())
+}
+
+fn write_depfile(
+    args: &RenderArgs,
+    targets: &[Target],
+    loaded: &Loaded,
+    rendered: &Rendered,
+) -> Result<(), Failure> {
+    let Some(path) = &args.depfile else { return Ok(()) };
+    let images: Vec<&Path> = targets.iter().filter_map(Target::path).collect();
+    let files: Vec<&Path> = loaded.files.iter().chain(&rendered.files).map(PathBuf::as_path).collect();
+    let rules = depfile::rules(&images, &files)
+        .map_err(|error| Failure::new(USAGE, format!("--depfile: {error}")))?;
+    write_text(path, &rules)
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    atomic::write(path, text.as_bytes()).map_err(|error| Failure::writing(&path.display().to_string(), error))
+}
+
+/// Now and here; with `SOURCE_DATE_EPOCH`, then and nowhere.
+fn stamp() -> Result<Stamp, Failure> {
+    if let Some(epoch) = std::env::var_os("SOURCE_DATE_EPOCH") {
+        let unix_time = epoch.to_str().and_then(|text| text.parse().ok()).ok_or_else(|| {
+            Failure::new(USAGE, "SOURCE_DATE_EPOCH is not a whole number of seconds since 1970")
+        })?;
+        return Ok(Stamp { unix_time, host: None });
+    }
+    let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    let host = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_string());
+    Ok(Stamp { unix_time: since_1970.map_or(0, |time| time.as_secs()), host })
+}
+
+fn verbose(loaded: &Loaded, rendered: &Rendered, terminal: &Terminal) {
+    if !rendered.provenance.plan.is_empty() {
+        terminal.say(&format!("plan:\n{}", rendered.provenance.plan.trim_end()));
+    }
+    for file in loaded.files.iter().chain(&rendered.files) {
+        terminal.say(&format!("read {}", file.display()));
+    }
+}

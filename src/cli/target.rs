@@ -1,0 +1,135 @@
+//! Where the images go: named files, each once, and standard output.
+
+use super::args::{ImageFormat, RenderArgs};
+use super::exit::{Failure, USAGE};
+use std::io::{self, Cursor, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use terrarium::output::{self, Format, Image, PngSettings, Provenance, Written, atomic};
+
+/// One image to write.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    File(PathBuf, Format),
+    Stdout(Format),
+}
+
+/// An image that is written but does not have its name yet.
+pub enum Staged {
+    File(atomic::Pending, PathBuf),
+    Stdout(Vec<u8>),
+}
+
+/// The outputs that were asked for; refuses formats unknown, paths given twice, and a terminal.
+pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
+    let mut targets: Vec<Target> = Vec::new();
+    for path in &args.output {
+        let target = if path == Path::new("-") {
+            Target::Stdout(match args.format {
+                ImageFormat::Exr => Format::Exr,
+                ImageFormat::Png => Format::Png,
+            })
+        } else {
+            let format = Format::from_path(path).ok_or_else(|| {
+                let name = path.display();
+                Failure::new(USAGE, format!("{name}: an image's name ends in .exr or .png"))
+            })?;
+            Target::File(path.clone(), format)
+        };
+        let same = |other: &Target| match (other, &target) {
+            (Target::File(a, _), Target::File(b, _)) => same_file(a, b),
+            (a, b) => matches!((a, b), (Target::Stdout(_), Target::Stdout(_))),
+        };
+        if targets.iter().any(same) {
+            return Err(Failure::new(USAGE, format!("{} is given as an output twice", path.display())));
+        }
+        targets.push(target);
+    }
+    if targets.iter().any(|target| matches!(target, Target::Stdout(_))) {
+        if io::stdout().is_terminal() {
+            return Err(Failure::new(USAGE, "standard output is a terminal, which can't show an image file"));
+        }
+        if args.stats.as_deref() == Some(Path::new("-")) {
+            return Err(Failure::new(USAGE, "the image and the statistics can't both go to standard output"));
+        }
+    }
+    Ok(targets)
+}
+
+/// Whether both paths name the same place, as far as can be told.
+pub fn same_file(a: &Path, b: &Path) -> bool {
+    place(a) == place(b)
+}
+
+/// The path with its folder's links resolved.
+fn place(path: &Path) -> PathBuf {
+    if let Ok(place) = path.canonicalize() {
+        return place;
+    }
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    match (path.parent().and_then(|folder| folder.canonicalize().ok()), path.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => path,
+    }
+}
+
+impl Target {
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Target::File(path, _) => Some(path),
+            Target::Stdout(_) => None,
+        }
+    }
+
+    /// Writes the image, without giving it its name.
+    pub fn stage(
+        &self,
+        image: &Image,
+        provenance: &Provenance,
+        settings: PngSettings,
+    ) -> Result<(Staged, Written), Failure> {
+        match self {
+            Target::File(path, format) => {
+                let name = path.display().to_string();
+                let mut file =
+                    atomic::Pending::create(path).map_err(|error| Failure::writing(&name, error))?;
+                let written = format
+                    .write(&mut file, image, provenance, settings)
+                    .map_err(|error| Failure::image(&name, error))?;
+                Ok((Staged::File(file, path.clone()), written))
+            }
+            Target::Stdout(format) => {
+                let mut bytes = Cursor::new(Vec::new());
+                let written = format
+                    .write(&mut bytes, image, provenance, settings)
+                    .map_err(|error| Failure::image("to standard output", error))?;
+                Ok((Staged::Stdout(bytes.into_inner()), written))
+            }
+        }
+    }
+}
+
+impl Staged {
+    /// Gives the file its name, or sends the bytes.
+    pub fn commit(self) -> Result<(), Failure> {
+        match self {
+            Staged::File(file, path) => {
+                file.commit().map_err(|error| Failure::writing(&path.display().to_string(), error))
+            }
+            Staged::Stdout(bytes) => {
+                let mut stdout = io::stdout().lock();
+                stdout
+                    .write_all(&bytes)
+                    .and_then(|()| stdout.flush())
+                    .map_err(|error| Failure::writing("to standard output", error))
+            }
+        }
+    }
+}
+
+/// The image settings of a scene for PNG.
+pub fn png_settings(image: &terrarium::description::Image) -> PngSettings {
+    PngSettings {
+        exposure_ev: image.exposure_ev,
+        bits: if image.png_bits == 16 { output::Bits::Sixteen } else { output::Bits::Eight },
+    }
+}

@@ -1,0 +1,152 @@
+//! OpenEXR: 32-bit float, one part, scan lines, ZIP.
+//!
+//! Layers are spelt as other programs look for them: `N.X`, `P.X`, `Z`, `direct.R`. Of custom
+//! attributes there is one in each of the two maps that the `exr` crate keeps, because a hash
+//! map of several would be written in another order on every run: the whole provenance is the
+//! JSON text `terrarium`, and `colorInteropID` names the colour space.
+
+use super::{CameraView, Image, OutputError, Provenance, Written, camera_view::Matrix};
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Layer, LayerAttributes, LineOrder,
+    SmallVec, Text, Vec2, WritableImage,
+};
+use exr::{image::Blocks, image::Encoding, meta::attribute::Chromaticities, meta::attribute::Matrix4x4};
+use std::io::{Seek, Write};
+
+/// The name of the attribute that holds the provenance as JSON.
+pub const ATTRIBUTE: &str = "terrarium";
+
+/// Rec. 709 primaries and the D65 white point, CIE 1931 (x, y).
+const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.30, 0.60),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.3290),
+};
+
+/// Writes all layers. Values that are not finite become 0 and are counted.
+///
+/// The same image and provenance give the same bytes, with any number of threads.
+pub fn write(
+    sink: impl Write + Seek,
+    image: &Image,
+    provenance: &Provenance,
+) -> Result<Written, OutputError> {
+    if let Some(defect) = image.defect() {
+        return Err(OutputError::Invalid(defect));
+    }
+    if i32::try_from(image.width.max(image.height)).is_err() {
+        return Err(OutputError::NotSupported("an EXR image wider or higher than 2147483647".to_string()));
+    }
+    let mut written = Written::default();
+    let mut channels = SmallVec::new();
+    for layer in &image.layers {
+        for (channel, values) in &layer.channels {
+            let values = finite(values, &mut written.non_finite);
+            channels.push(AnyChannel::new(spelling(&layer.name, channel).as_str(), FlatSamples::F32(values)));
+        }
+    }
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let size = Vec2(image.width, image.height);
+    let layer = Layer::new(size, attributes(provenance), encoding, AnyChannels::sort(channels));
+    let mut file = exr::image::Image::from_layer(layer);
+    file.attributes.chromaticities = Some(REC_709);
+    file.attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
+    let writer = file.write();
+    if rayon::current_num_threads() == 1 {
+        writer.non_parallel().to_buffered(sink)?;
+    } else {
+        writer.to_buffered(sink)?;
+    }
+    Ok(written)
+}
+
+/// The channel's name in the file.
+fn spelling(layer: &str, channel: &str) -> String {
+    match layer {
+        "" | "depth" => channel.to_string(),
+        "normal" => format!("N.{channel}"),
+        "position" => format!("P.{channel}"),
+        _ => format!("{layer}.{channel}"),
+    }
+}
+
+fn finite(values: &[f32], non_finite: &mut u64) -> Vec<f32> {
+    let mut replace = |value: &f32| {
+        if value.is_finite() {
+            *value
+        } else {
+            *non_finite += 1;
+            0.0
+        }
+    };
+    values.iter().map(&mut replace).collect()
+}
+
+fn attributes(provenance: &Provenance) -> LayerAttributes {
+    let mut attributes = LayerAttributes {
+        software_name: Some(text(&provenance.software)),
+        owner: provenance.owner.as_deref().map(text),
+        comments: provenance.comments.as_deref().map(text),
+        ..LayerAttributes::default()
+    };
+    if let Some(stamp) = &provenance.stamp {
+        attributes.capture_date = Some(text(&stamp.date()));
+        attributes.utc_offset = Some(0.0);
+    }
+    if let Some(camera) = &provenance.camera {
+        describe(camera, &mut attributes);
+    }
+    attributes.other.insert(text(ATTRIBUTE), AttributeValue::Text(text(&provenance.to_json())));
+    attributes
+}
+
+fn describe(camera: &CameraView, attributes: &mut LayerAttributes) {
+    attributes.world_to_camera = Some(flat(camera.world_to_camera()));
+    attributes.world_to_normalized_device = Some(flat(camera.world_to_ndc()));
+    attributes.vertical_field_of_view = Some(camera.fov_deg as f32);
+    attributes.horizontal_field_of_view = Some(camera.horizontal_fov_deg() as f32);
+    attributes.focus = Some(camera.focus_m as f32);
+}
+
+fn flat(matrix: Matrix) -> Matrix4x4 {
+    std::array::from_fn(|i| matrix[i / 4][i % 4] as f32)
+}
+
+/// A text attribute of UTF-8 bytes.
+fn text(text: &str) -> Text {
+    Text::from_slice_unchecked(text.as_bytes())
+}
+
+impl From<exr::error::Error> for OutputError {
+    fn from(error: exr::error::Error) -> Self {
+        match error {
+            exr::error::Error::Io(error) => OutputError::Io(error),
+            exr::error::Error::NotSupported(message) => OutputError::NotSupported(message.to_string()),
+            other => OutputError::Invalid(other.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_are_spelt_as_other_programs_look_for_them() {
+        for (layer, channel, expected) in [
+            ("", "R", "R"),
+            ("normal", "X", "N.X"),
+            ("position", "Z", "P.Z"),
+            ("depth", "Z", "Z"),
+            ("samples", "Y", "samples.Y"),
+            ("object_id", "Y", "object_id.Y"),
+        ] {
+            assert_eq!(spelling(layer, channel), expected);
+        }
+    }
+}
