@@ -153,10 +153,17 @@ impl Work for Nearest<'_> {
         let shear = Shear::new(lanes, self.ray, &self.mesh.bounds);
         let mut best = TriangleHit { t: self.t_max, triangle: 0, b: [0.0; 3] };
         let mut found = false;
-        walk::<L, true>(lanes, &self.mesh.nodes, &slabs, self.t_max, |leaf, _| {
-            found |= self.mesh.packets[leaf as usize].nearest(lanes, &shear, &mut best);
-            best.t
-        });
+        walk::<L, true>(
+            lanes,
+            &self.mesh.nodes,
+            &slabs,
+            self.t_max,
+            #[inline(always)]
+            |leaf, _| {
+                found |= self.mesh.packets[leaf as usize].nearest(lanes, &shear, &mut best);
+                best.t
+            },
+        );
         found.then_some(best)
     }
 }
@@ -178,10 +185,17 @@ impl Work for Any<'_> {
         let slabs = Slabs::new(lanes, self.ray, &self.mesh.bounds);
         let shear = Shear::new(lanes, self.ray, &self.mesh.bounds);
         let mut found = false;
-        walk::<L, false>(lanes, &self.mesh.nodes, &slabs, self.t_max, |leaf, t_max| {
-            found = self.mesh.packets[leaf as usize].any(lanes, &shear, t_max);
-            if found { -1.0 } else { t_max }
-        });
+        walk::<L, false>(
+            lanes,
+            &self.mesh.nodes,
+            &slabs,
+            self.t_max,
+            #[inline(always)]
+            |leaf, t_max| {
+                found = self.mesh.packets[leaf as usize].any(lanes, &shear, t_max);
+                if found { -1.0 } else { t_max }
+            },
+        );
         found
     }
 }

@@ -45,13 +45,13 @@ pub(super) struct Shear<L: Lanes> {
 impl<L: Lanes> Shear<L> {
     #[inline(always)]
     pub fn new(lanes: L, ray: &BoxRay, bounds: &Aabb) -> Self {
-        let axes = ray.axes.map(usize::from);
-        assert!(axes.iter().all(|&k| k < 3));
-        let origin1 = axes.map(|k| ray.origin[k]);
+        let [kx, ky, kz] = [ray.axes[0] as usize, ray.axes[1] as usize, ray.axes[2] as usize];
+        assert!(kx < 3 && ky < 3 && kz < 3);
+        let origin1 = [ray.origin[kx], ray.origin[ky], ray.origin[kz]];
         let [sx, sy, scale] = ray.shear;
         Shear {
-            axes,
-            origin: origin1.map(|o| lanes.splat(o)),
+            axes: [kx, ky, kz],
+            origin: [lanes.splat(origin1[0]), lanes.splat(origin1[1]), lanes.splat(origin1[2])],
             shear: [lanes.splat(sx), lanes.splat(sy)],
             scale,
             slack: lanes.splat(PROJECTION_ERROR * ray.reach(bounds)),
@@ -59,6 +59,22 @@ impl<L: Lanes> Shear<L> {
             shear1: [sx, sy],
         }
     }
+
+    /// One vertex of each triangle in the sheared space; its z is not scaled yet.
+    #[inline(always)]
+    fn project(&self, l: L, rows: &[Array; 3]) -> [L::F; 3] {
+        let [kx, ky, kz] = self.axes;
+        let z = l.sub(l.load(&rows[kz]), self.origin[2]);
+        let x = l.sub(l.sub(l.load(&rows[kx]), self.origin[0]), l.mul(self.shear[0], z));
+        let y = l.sub(l.sub(l.load(&rows[ky]), self.origin[1]), l.mul(self.shear[1], z));
+        [x, y, z]
+    }
+}
+
+/// The edge function of the edge from `q` to `p` at the ray.
+#[inline(always)]
+fn edge<L: Lanes>(l: L, p: &[L::F; 3], q: &[L::F; 3]) -> L::F {
+    l.sub(l.mul(p[0], q[1]), l.mul(p[1], q[0]))
 }
 
 impl Packet {
@@ -92,7 +108,12 @@ impl Packet {
         let mut found = false;
         if mask != 0 {
             let t = lanes.store(t);
-            let b = c.edges.map(|e| lanes.store(lanes.mul(e, inverse)));
+            let [u, v, w] = c.edges;
+            let b = [
+                lanes.store(lanes.mul(u, inverse)),
+                lanes.store(lanes.mul(v, inverse)),
+                lanes.store(lanes.mul(w, inverse)),
+            ];
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize & 7;
                 mask &= mask - 1;
@@ -120,19 +141,9 @@ impl Packet {
     /// The triangles around the ray, `None` if there are none.
     #[inline(always)]
     fn candidates<L: Lanes>(&self, l: L, ray: &Shear<L>) -> Option<Candidates<L>> {
-        let [kx, ky, kz] = ray.axes;
-        let project = |rows: &[Array; 3]| {
-            let z = l.sub(l.load(&rows[kz]), ray.origin[2]);
-            let x = l.sub(l.sub(l.load(&rows[kx]), ray.origin[0]), l.mul(ray.shear[0], z));
-            let y = l.sub(l.sub(l.load(&rows[ky]), ray.origin[1]), l.mul(ray.shear[1], z));
-            [x, y, z]
-        };
-        let [a, b, c] = [0, 1, 2].map(
-            #[inline(always)]
-            |i| project(&self.vertices[i]),
-        );
-        let edge = |p: &[L::F; 3], q: &[L::F; 3]| l.sub(l.mul(p[0], q[1]), l.mul(p[1], q[0]));
-        let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
+        let [pa, pb, pc] = &self.vertices;
+        let (a, b, c) = (ray.project(l, pa), ray.project(l, pb), ray.project(l, pc));
+        let (u, v, w) = (edge(l, &c, &b), edge(l, &a, &c), edge(l, &b, &a));
         let zero = l.splat(0.0);
         let (least, most) = (l.min(l.min(u, v), w), l.max(l.max(u, v), w));
         let around = l.le(zero, least) | l.le(most, zero);
@@ -140,12 +151,16 @@ impl Packet {
             return None;
         }
         let det = l.add(l.add(u, v), w);
-        let weigh = |k: usize| l.add(l.add(l.mul(u, a[k]), l.mul(v, b[k])), l.mul(w, c[k]));
+        let [x, y, t_det] = [
+            l.add(l.add(l.mul(u, a[0]), l.mul(v, b[0])), l.mul(w, c[0])),
+            l.add(l.add(l.mul(u, a[1]), l.mul(v, b[1])), l.mul(w, c[1])),
+            l.add(l.add(l.mul(u, a[2]), l.mul(v, b[2])), l.mul(w, c[2])),
+        ];
         let tolerance = l.mul(ray.slack, l.abs(det));
-        let back = l.le(l.abs(weigh(0)), tolerance) & l.le(l.abs(weigh(1)), tolerance);
+        let back = l.le(l.abs(x), tolerance) & l.le(l.abs(y), tolerance);
         let on_edge = l.eq(u, zero) | l.eq(v, zero) | l.eq(w, zero);
         let sure = around & back & !on_edge;
-        Some(Candidates { edges: [u, v, w], det, t_det: weigh(2), sure, unsure: around & !sure })
+        Some(Candidates { edges: [u, v, w], det, t_det, sure, unsure: around & !sure })
     }
 
     #[cold]

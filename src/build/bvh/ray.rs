@@ -77,17 +77,14 @@ impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn new(lanes: L, ray: &BoxRay, bounds: &Aabb) -> Self {
         let pad = ray.origin_error + Vec3::splat(PROJECTION_ERROR * ray.reach(bounds));
-        let (below, above) = (ray.origin - pad, ray.origin + pad);
-        let negative: [bool; 3] = std::array::from_fn(|k| ray.dir[k].is_sign_negative());
-        // A near plane's origin is moved along the ray, a far plane's against it. The reciprocal
-        // for near planes is kept finite: that can only bring an entry nearer.
+        let (x, y, z) = (Slab::new(ray, pad, 0), Slab::new(ray, pad, 1), Slab::new(ray, pad, 2));
         Slabs {
-            near_row: std::array::from_fn(|k| if negative[k] { 3 + k } else { k }),
-            far_row: std::array::from_fn(|k| if negative[k] { k } else { 3 + k }),
-            near_origin: std::array::from_fn(|k| lanes.splat(if negative[k] { below[k] } else { above[k] })),
-            far_origin: std::array::from_fn(|k| lanes.splat(if negative[k] { above[k] } else { below[k] })),
-            near_inv: std::array::from_fn(|k| lanes.splat(ray.inv[k].clamp(-f32::MAX, f32::MAX))),
-            far_inv: std::array::from_fn(|k| lanes.splat(ray.inv[k] * OUTWARDS)),
+            near_row: [x.near_row, y.near_row, z.near_row],
+            far_row: [x.far_row, y.far_row, z.far_row],
+            near_origin: [lanes.splat(x.near_origin), lanes.splat(y.near_origin), lanes.splat(z.near_origin)],
+            far_origin: [lanes.splat(x.far_origin), lanes.splat(y.far_origin), lanes.splat(z.far_origin)],
+            near_inv: [lanes.splat(x.near_inv), lanes.splat(y.near_inv), lanes.splat(z.near_inv)],
+            far_inv: [lanes.splat(x.far_inv), lanes.splat(y.far_inv), lanes.splat(z.far_inv)],
             zero: lanes.splat(0.0),
         }
     }
@@ -103,16 +100,54 @@ impl<L: Lanes> Slabs<L> {
     /// 0·∞ = NaN arises for a ray in the plane of a face; `min` and `max` then ignore that slab.
     #[inline(always)]
     pub fn enter(&self, lanes: L, node: &Node, limit: L::F) -> (L::F, u32) {
-        let near = |k: usize| {
-            let plane = lanes.load(node.row(self.near_row[k]));
-            lanes.mul(lanes.sub(plane, self.near_origin[k]), self.near_inv[k])
-        };
-        let far = |k: usize| {
-            let plane = lanes.load(node.row(self.far_row[k]));
-            lanes.mul(lanes.sub(plane, self.far_origin[k]), self.far_inv[k])
-        };
-        let entry = lanes.max(lanes.max(near(0), near(1)), lanes.max(near(2), self.zero));
-        let exit = lanes.min(lanes.min(far(0), far(1)), lanes.min(far(2), limit));
+        let (near, far) = (self.near(lanes, node), self.far(lanes, node));
+        let entry = lanes.max(lanes.max(near[0], near[1]), lanes.max(near[2], self.zero));
+        let exit = lanes.min(lanes.min(far[0], far[1]), lanes.min(far[2], limit));
         (entry, lanes.le(entry, exit))
+    }
+
+    #[inline(always)]
+    fn near(&self, l: L, node: &Node) -> [L::F; 3] {
+        let ([x, y, z], o, inv) = (self.near_row, &self.near_origin, &self.near_inv);
+        [
+            l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),
+            l.mul(l.sub(l.load(node.row(y)), o[1]), inv[1]),
+            l.mul(l.sub(l.load(node.row(z)), o[2]), inv[2]),
+        ]
+    }
+
+    #[inline(always)]
+    fn far(&self, l: L, node: &Node) -> [L::F; 3] {
+        let ([x, y, z], o, inv) = (self.far_row, &self.far_origin, &self.far_inv);
+        [
+            l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),
+            l.mul(l.sub(l.load(node.row(y)), o[1]), inv[1]),
+            l.mul(l.sub(l.load(node.row(z)), o[2]), inv[2]),
+        ]
+    }
+}
+
+/// The constants of one axis.
+struct Slab {
+    near_row: usize,
+    far_row: usize,
+    near_origin: f32,
+    far_origin: f32,
+    near_inv: f32,
+    far_inv: f32,
+}
+
+impl Slab {
+    /// A near plane's origin is moved along the ray, a far plane's against it. The reciprocal for
+    /// near planes is kept finite: that can only bring an entry nearer.
+    #[inline(always)]
+    fn new(ray: &BoxRay, pad: Vec3, k: usize) -> Slab {
+        let (below, above) = (ray.origin[k] - pad[k], ray.origin[k] + pad[k]);
+        let (near_inv, far_inv) = (ray.inv[k].clamp(-f32::MAX, f32::MAX), ray.inv[k] * OUTWARDS);
+        if ray.dir[k].is_sign_negative() {
+            Slab { near_row: 3 + k, far_row: k, near_origin: below, far_origin: above, near_inv, far_inv }
+        } else {
+            Slab { near_row: k, far_row: 3 + k, near_origin: above, far_origin: below, near_inv, far_inv }
+        }
     }
 }

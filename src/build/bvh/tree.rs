@@ -141,9 +141,14 @@ impl<V: FnMut(u32, f32) -> Option<f32>> Work for Nearest<'_, V> {
             return;
         }
         let slabs = Slabs::new(lanes, self.ray, &self.tree.bounds);
-        walk::<L, true>(lanes, &self.tree.nodes, &slabs, self.t_max, |i, t_max| {
-            (self.visit)(i, t_max).map_or(t_max, |t| t.min(t_max))
-        });
+        walk::<L, true>(
+            lanes,
+            &self.tree.nodes,
+            &slabs,
+            self.t_max,
+            #[inline(always)]
+            |i, t_max| (self.visit)(i, t_max).map_or(t_max, |t| t.min(t_max)),
+        );
     }
 }
 
@@ -164,10 +169,17 @@ impl<V: FnMut(u32) -> bool> Work for Any<'_, V> {
         }
         let slabs = Slabs::new(lanes, self.ray, &self.tree.bounds);
         let mut found = false;
-        walk::<L, false>(lanes, &self.tree.nodes, &slabs, self.t_max, |i, t_max| {
-            found = (self.visit)(i);
-            if found { -1.0 } else { t_max }
-        });
+        walk::<L, false>(
+            lanes,
+            &self.tree.nodes,
+            &slabs,
+            self.t_max,
+            #[inline(always)]
+            |i, t_max| {
+                found = (self.visit)(i);
+                if found { -1.0 } else { t_max }
+            },
+        );
         found
     }
 }
