@@ -111,6 +111,13 @@ impl TriangleBvh {
         }
     }
 
+    /// Everything that the tree holds, for comparing trees.
+    #[cfg(test)]
+    pub(super) fn fingerprint(&self) -> (Vec<[u32; 64]>, Vec<Vec<u32>>) {
+        let ids = |p: &Packet| p.filled().map(|(i, _)| i).collect();
+        (self.nodes.iter().map(Node::to_bits).collect(), self.packets.iter().map(ids).collect())
+    }
+
     #[cfg(test)]
     pub(super) fn portable(mut self) -> TriangleBvh {
         self.machine = Machine::portable();

@@ -75,6 +75,11 @@ impl Node {
         Aabb { min: corner(0), max: corner(3) }
     }
 
+    #[cfg(test)]
+    pub fn to_bits(&self) -> [u32; 64] {
+        std::array::from_fn(|i| self.rows[i / 8][i % 8].to_bits())
+    }
+
     /// The lanes that hold something: box and content.
     pub fn filled(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
         (0..8)
