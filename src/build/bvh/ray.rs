@@ -1,0 +1,153 @@
+//! A ray as the tree sees it: the slab test's constants, padded so that no box is missed that the
+//! exact ray, or the rounded triangle test, may reach.
+//!
+//! Sources: Ize 2013, "Robust BVH Ray Traversal" (JCGT 2(2)): exits are pushed outwards by the
+//! rounding of the slab arithmetic. Woop, Benthin & Wald 2013, "Watertight Ray/Triangle
+//! Intersection" (JCGT 2(1)), section 3.3: boxes must also cover the rounding of the projected
+//! vertices, so near and far planes see different origins.
+
+use super::lanes::Lanes;
+use super::node::Node;
+use crate::math::{Aabb, Vec3};
+
+/// Exits and limits are scaled by 1 + 16u (u = 2⁻²⁴), above Ize's 1 + 2γ₃ ≈ 1 + 6u; the rest
+/// covers a direction that was itself rounded, and the rounding of a hit's distance.
+const OUTWARDS: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// Bound on the error of a projected vertex over the largest distance along an axis from the
+/// origin: the x (or y) of a vertex takes two roundings, its sheared z four, of values that are
+/// both at most that distance.
+pub(super) const PROJECTION_ERROR: f32 = 6.0 * f32::EPSILON;
+
+/// A ray for traversal, in single precision.
+///
+/// `t` is in units of `dir`, which need not be of unit length, so that a ray keeps its `t` in the
+/// object space of an instance.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxRay {
+    pub(super) origin: Vec3,
+    origin_error: Vec3,
+    pub(super) dir: Vec3,
+    /// Reciprocal of `dir`, infinite where `dir` is ±0.
+    inv: Vec3,
+    /// The axes in the order x, y, z of the triangle test's sheared space.
+    pub(super) axes: [u8; 3],
+    /// Shear of x and y, and scale of z.
+    pub(super) shear: [f32; 3],
+}
+
+impl BoxRay {
+    /// `origin_error` bounds, for each axis, how far the exact origin lies from `origin` (0 where
+    /// `origin` is exact). A ray with a non-finite or zero direction meets nothing.
+    #[inline]
+    pub fn new(origin: Vec3, origin_error: Vec3, dir: Vec3) -> BoxRay {
+        let d = dir.abs();
+        let largest = if d.x > d.y && d.x > d.z { 0 } else { 1 + usize::from(d.y <= d.z) };
+        let [x, y, z] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][largest];
+        let shear = [dir[x] / dir[z], dir[y] / dir[z], 1.0 / dir[z]];
+        BoxRay { origin, origin_error, dir, inv: dir.recip(), axes: [x as u8, y as u8, z as u8], shear }
+    }
+
+    /// Whether the ray can hit anything at all.
+    #[inline]
+    pub(super) fn is_valid(&self) -> bool {
+        self.origin.is_finite() && self.shear[2].is_finite() && self.dir.is_finite()
+    }
+
+    /// The largest distance along an axis from the origin to a point of `bounds`.
+    #[inline]
+    pub(super) fn reach(&self, bounds: &Aabb) -> f32 {
+        (bounds.max - self.origin).abs().max((bounds.min - self.origin).abs()).max_element()
+    }
+}
+
+/// The slab test's constants for one ray and one tree, one copy per lane.
+#[derive(Clone, Copy)]
+pub(super) struct Slabs<L: Lanes> {
+    near_row: [usize; 3],
+    far_row: [usize; 3],
+    near_origin: [L::F; 3],
+    far_origin: [L::F; 3],
+    near_inv: [L::F; 3],
+    far_inv: [L::F; 3],
+    zero: L::F,
+}
+
+impl<L: Lanes> Slabs<L> {
+    #[inline(always)]
+    pub fn new(lanes: L, ray: &BoxRay, bounds: &Aabb) -> Self {
+        let pad = ray.origin_error + Vec3::splat(PROJECTION_ERROR * ray.reach(bounds));
+        let (x, y, z) = (Slab::new(ray, pad, 0), Slab::new(ray, pad, 1), Slab::new(ray, pad, 2));
+        Slabs {
+            near_row: [x.near_row, y.near_row, z.near_row],
+            far_row: [x.far_row, y.far_row, z.far_row],
+            near_origin: [lanes.splat(x.near_origin), lanes.splat(y.near_origin), lanes.splat(z.near_origin)],
+            far_origin: [lanes.splat(x.far_origin), lanes.splat(y.far_origin), lanes.splat(z.far_origin)],
+            near_inv: [lanes.splat(x.near_inv), lanes.splat(y.near_inv), lanes.splat(z.near_inv)],
+            far_inv: [lanes.splat(x.far_inv), lanes.splat(y.far_inv), lanes.splat(z.far_inv)],
+            zero: lanes.splat(0.0),
+        }
+    }
+
+    /// The largest entry that a box may have to hold a hit at up to `t_max`.
+    #[inline(always)]
+    pub fn limit(t_max: f32) -> f32 {
+        t_max * OUTWARDS
+    }
+
+    /// Entries into the node's eight boxes (not below 0), and which are entered by `limit`.
+    ///
+    /// 0·∞ = NaN arises for a ray in the plane of a face; `min` and `max` then ignore that slab.
+    #[inline(always)]
+    pub fn enter(&self, lanes: L, node: &Node, limit: L::F) -> (L::F, u32) {
+        let (near, far) = (self.near(lanes, node), self.far(lanes, node));
+        let entry = lanes.max(lanes.max(near[0], near[1]), lanes.max(near[2], self.zero));
+        let exit = lanes.min(lanes.min(far[0], far[1]), lanes.min(far[2], limit));
+        (entry, lanes.le(entry, exit))
+    }
+
+    #[inline(always)]
+    fn near(&self, l: L, node: &Node) -> [L::F; 3] {
+        let ([x, y, z], o, inv) = (self.near_row, &self.near_origin, &self.near_inv);
+        [
+            l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),
+            l.mul(l.sub(l.load(node.row(y)), o[1]), inv[1]),
+            l.mul(l.sub(l.load(node.row(z)), o[2]), inv[2]),
+        ]
+    }
+
+    #[inline(always)]
+    fn far(&self, l: L, node: &Node) -> [L::F; 3] {
+        let ([x, y, z], o, inv) = (self.far_row, &self.far_origin, &self.far_inv);
+        [
+            l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),
+            l.mul(l.sub(l.load(node.row(y)), o[1]), inv[1]),
+            l.mul(l.sub(l.load(node.row(z)), o[2]), inv[2]),
+        ]
+    }
+}
+
+/// The constants of one axis.
+struct Slab {
+    near_row: usize,
+    far_row: usize,
+    near_origin: f32,
+    far_origin: f32,
+    near_inv: f32,
+    far_inv: f32,
+}
+
+impl Slab {
+    /// A near plane's origin is moved along the ray, a far plane's against it. The reciprocal for
+    /// near planes is kept finite: that can only bring an entry nearer.
+    #[inline(always)]
+    fn new(ray: &BoxRay, pad: Vec3, k: usize) -> Slab {
+        let (below, above) = (ray.origin[k] - pad[k], ray.origin[k] + pad[k]);
+        let (near_inv, far_inv) = (ray.inv[k].clamp(-f32::MAX, f32::MAX), ray.inv[k] * OUTWARDS);
+        if ray.dir[k].is_sign_negative() {
+            Slab { near_row: 3 + k, far_row: k, near_origin: below, far_origin: above, near_inv, far_inv }
+        } else {
+            Slab { near_row: k, far_row: 3 + k, near_origin: above, far_origin: below, near_inv, far_inv }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The tree over boxes: every box that the exact ray meets is visited, and few others.
+
+use super::*;
+use crate::build::bvh::Bvh;
+
+/// Whether the exact ray meets the box, grown by `pad`, at a t in [0, t_max]: double precision is
+/// exact enough for the small integers and halves that the tests use.
+fn meets(b: &Aabb, origin: Vec3, dir: Vec3, t_max: f64, pad: f64) -> bool {
+    let (mut first, mut last) = (0.0f64, t_max);
+    for k in 0..3 {
+        let (lo, hi) = (f64::from(b.min[k]) - pad, f64::from(b.max[k]) + pad);
+        let (o, d) = (f64::from(origin[k]), f64::from(dir[k]));
+        if d == 0.0 {
+            if o < lo || o > hi {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = ((lo - o) / d, (hi - o) / d);
+        first = first.max(a.min(b));
+        last = last.min(a.max(b));
+    }
+    first <= last
+}
+
+fn visited(tree: &Bvh, r: &BoxRay, t_max: f32) -> Vec<u32> {
+    let mut all = Vec::new();
+    tree.nearest(r, t_max, |i, _| {
+        all.push(i);
+        None
+    });
+    let mut unordered = Vec::new();
+    tree.any(r, t_max, |i| {
+        unordered.push(i);
+        false
+    });
+    all.sort_unstable();
+    unordered.sort_unstable();
+    assert_eq!(all, unordered);
+    all
+}
+
+/// All 26 directions along axes and diagonals, with +0 and −0, from below, on the minimum, inside,
+/// on the maximum and above on each axis.
+#[test]
+fn rays_in_the_planes_of_faces_are_right() {
+    let boxes: Vec<Aabb> = [(0.0, 1.0), (2.0, 3.0), (1.0, 1.0), (-4.0, -2.0)]
+        .map(|(a, b)| Aabb { min: Vec3::splat(a), max: Vec3::splat(b) })
+        .to_vec();
+    let tree = Bvh::build(&boxes);
+    let portable = tree.clone().portable();
+    let places = [-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
+    let pick = |n: usize, base: usize, digit: u32| n / base.pow(digit) % base;
+    for direction in (0..27).filter(|&n| n != 13) {
+        let dir = Vec3::from_array([0, 1, 2].map(|k| pick(direction, 3, k) as f32 - 1.0));
+        for n in 0..places.len().pow(3) {
+            let origin = Vec3::from_array([0, 1, 2].map(|k| places[pick(n, places.len(), k)]));
+            let expected: Vec<u32> =
+                (0..4).filter(|&i| meets(&boxes[i as usize], origin, dir, 1e30, 0.0)).collect();
+            assert_eq!(visited(&tree, &ray(origin, dir), f32::INFINITY), expected, "{origin} {dir}");
+            let minus = Vec3::select(dir.cmpeq(Vec3::ZERO), Vec3::splat(-0.0), dir);
+            assert_eq!(visited(&tree, &ray(origin, minus), f32::INFINITY), expected, "{origin} {minus}");
+            assert_eq!(visited(&portable, &ray(origin, minus), f32::INFINITY), expected);
+        }
+    }
+}
+
+#[test]
+fn every_box_in_reach_is_visited_and_few_others() {
+    let mut rng = Rng(11);
+    for (scale, place) in [(1e-4, Vec3::ZERO), (1.0, Vec3::ZERO), (1e4, Vec3::ZERO), (1.0, Vec3::splat(1e5))]
+    {
+        let boxes: Vec<Aabb> = (0..1000)
+            .map(|_| {
+                let p = place + rng.cube() * scale;
+                Aabb::from_points([p, p + rng.cube() * (0.1 * scale)])
+            })
+            .collect();
+        let tree = Bvh::build(&boxes);
+        tree.validate(&boxes).unwrap();
+        let portable = tree.clone().portable();
+        for i in 0..500 {
+            let (origin, dir) = (place + rng.cube() * scale * 1.5, rng.cube());
+            let t_max = if i % 2 == 0 { f32::INFINITY } else { rng.unit() * scale };
+            let all = visited(&tree, &ray(origin, dir), t_max);
+            assert_eq!(all, visited(&portable, &ray(origin, dir), t_max));
+            let size = f64::from(scale + place.length());
+            for (i, b) in (0u32..).zip(&boxes) {
+                let was = all.binary_search(&i).is_ok();
+                assert!(was || !meets(b, origin, dir, f64::from(t_max), 0.0), "box {i} is missed");
+                assert!(!was || meets(b, origin, dir, f64::from(t_max) * 1.00001, 1e-5 * size));
+            }
+        }
+    }
+}
+
+/// An origin that is only known to an error meets whatever the exact one may meet.
+#[test]
+fn an_origins_error_widens_the_boxes() {
+    let boxes = [Aabb { min: Vec3::ZERO, max: Vec3::ONE }];
+    let tree = Bvh::build(&boxes);
+    for (origin, dir) in [
+        (Vec3::new(-0.01, 0.5, -1.0), Vec3::Z),
+        (Vec3::new(0.5, 1.01, 2.0), Vec3::NEG_Z),
+        (Vec3::new(0.5, 0.5, 1.01), Vec3::Z),
+    ] {
+        assert!(visited(&tree, &ray(origin, dir), 10.0).is_empty());
+        assert_eq!(visited(&tree, &BoxRay::new(origin, Vec3::splat(0.02), dir), 10.0), [0]);
+    }
+}
+
+#[test]
+fn nearer_boxes_come_first_and_a_hit_hides_those_behind() {
+    let boxes: Vec<Aabb> = (0..1000)
+        .map(|i| Vec3::new(0.0, 0.0, ((i * 389) % 1000) as f32))
+        .map(|p| Aabb { min: p - 0.25, max: p + 0.25 })
+        .collect();
+    let tree = Bvh::build(&boxes);
+    let mut seen = Vec::new();
+    tree.nearest(&ray(Vec3::new(0.0, 0.0, -10.0), Vec3::Z), f32::INFINITY, |i, _| {
+        seen.push((i * 389) % 1000);
+        (seen.len() == 20).then_some(0.5 + 10.0 + 18.5)
+    });
+    assert_eq!(seen, (0..20).collect::<Vec<_>>());
+}
+
+#[test]
+fn any_stops_at_the_first_yes() {
+    let boxes = vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }; 100];
+    let tree = Bvh::build(&boxes);
+    let mut visits = 0;
+    let yes = tree.any(&ray(Vec3::splat(0.5), Vec3::Z), 1.0, |_| {
+        visits += 1;
+        visits == 3
+    });
+    assert!(yes && visits == 3);
+}
+
+#[test]
+fn nothing_empty_boxes_and_a_hundred_thousand_copies_build() {
+    let r = ray(Vec3::new(0.5, 0.5, -1.0), Vec3::Z);
+    let none = Bvh::build(&[]);
+    none.validate(&[]).unwrap();
+    assert!(visited(&none, &r, 1e9).is_empty());
+    let hollow =
+        [Aabb::EMPTY, Aabb { min: Vec3::NAN, max: Vec3::ONE }, Aabb { min: Vec3::ZERO, max: Vec3::ONE }];
+    let tree = Bvh::build(&hollow);
+    tree.validate(&hollow).unwrap();
+    assert_eq!(visited(&tree, &r, 1e9), [2]);
+    let copies = vec![hollow[2]; 100_000];
+    let tree = Bvh::build(&copies);
+    tree.validate(&copies).unwrap();
+    assert_eq!(visited(&tree, &r, 1e9), (0..100_000).collect::<Vec<_>>());
+}
+
+/// Boxes in a row, each a tenth of the last: splits peel them off one at a time, which is as deep
+/// as a tree gets, and walks there outgrow the fixed stack.
+#[test]
+fn the_deepest_trees_are_walked_to_the_end() {
+    let boxes: Vec<Aabb> = (0..2000)
+        .map(|i| 0.96f32.powi(i))
+        .map(|s| Aabb { min: Vec3::splat(-s), max: Vec3::splat(s * 2.0) })
+        .collect();
+    let tree = Bvh::build(&boxes);
+    tree.validate(&boxes).unwrap();
+    assert_eq!(visited(&tree, &ray(Vec3::ZERO, Vec3::ONE), 1e9), (0..2000).collect::<Vec<_>>());
+}
