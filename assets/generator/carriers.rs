@@ -11,8 +11,8 @@ use super::water::LEVEL;
 
 /// Where grass grows: land of little slope above the beach, not under dense forest. A tuft of
 /// height 0.04 stays inside the glass.
-pub fn meadow(terrain: &Terrain) -> Mesh {
-    part(terrain, "meadow: carrier for grass", 0.05, 0.012, |cover, above, up| {
+pub fn meadow(terrain: &Terrain, top: &Top) -> Mesh {
+    part(terrain, top, "meadow: carrier for grass", 0.05, 0.012, |cover, above, up| {
         above > 0.018
             && above < 0.22
             && up > 0.86
@@ -24,8 +24,8 @@ pub fn meadow(terrain: &Terrain) -> Mesh {
 
 /// Where trees grow: the foot of the mountains and the woods of the meadow. A tree of height 0.17
 /// and crown radius 0.05 stays inside the glass.
-pub fn forest(terrain: &Terrain) -> Mesh {
-    part(terrain, "forest: carrier for trees", 0.17, 0.05, |cover, above, up| {
+pub fn forest(terrain: &Terrain, top: &Top) -> Mesh {
+    part(terrain, top, "forest: carrier for trees", 0.17, 0.05, |cover, above, up| {
         above > 0.045
             && above < 0.33
             && up > 0.72
@@ -36,8 +36,8 @@ pub fn forest(terrain: &Terrain) -> Mesh {
 }
 
 /// Where pebbles lie: the strip of sand at the shore, a little into the water.
-pub fn beach(terrain: &Terrain) -> Mesh {
-    part(terrain, "beach: carrier for pebbles", 0.01, 0.01, |cover, above, up| {
+pub fn beach(terrain: &Terrain, top: &Top) -> Mesh {
+    part(terrain, top, "beach: carrier for pebbles", 0.01, 0.01, |cover, above, up| {
         above > -0.02 && above < 0.03 && up > 0.85 && cover.sand > 0.4
     })
 }
@@ -46,12 +46,12 @@ pub fn beach(terrain: &Terrain) -> Mesh {
 /// stands `margin` inside the cavity, as does the point `tall` above it.
 fn part(
     terrain: &Terrain,
+    Top { disc, positions }: &Top,
     title: &'static str,
     tall: f64,
     margin: f64,
     keep: impl Fn(&Cover, f64, f64) -> bool,
 ) -> Mesh {
-    let Top { disc, positions } = ground::top(terrain);
     let mut mesh = Mesh::new(title);
     let mut renamed = vec![usize::MAX; positions.len()];
     for face in disc.faces() {

@@ -27,6 +27,8 @@ struct Kind {
     leafy: f64,
     /// How much leaves hang: 0 stand in any direction, 1 point down.
     droop: f64,
+    /// How far up the crown's half height the stem goes on by itself: −1 to its foot, 1 to its top.
+    leader: f64,
     /// Stems from the ground.
     stems: usize,
 }
@@ -39,15 +41,16 @@ pub fn broadleaf(seed: u64) -> Mesh {
             title: "broad-leaved tree, height 1, foot at the origin; groups trunk, leaves",
             centre: DVec3::new(0.0, 0.62, 0.0),
             half: DVec3::new(0.40, 0.37, 0.40),
-            points: 650,
+            points: 900,
             step: 0.028,
-            sight: 0.21,
+            sight: 0.18,
             twig: 0.0030,
             trunk_sides: 8,
-            leaf: 0.058,
+            leaf: 0.056,
             leaves: 4,
             leafy: 2.2,
             droop: 0.25,
+            leader: -0.5,
             stems: 1,
         },
     )
@@ -61,15 +64,16 @@ pub fn birch(seed: u64) -> Mesh {
             title: "birch, height 1, foot at the origin; groups trunk, leaves",
             centre: DVec3::new(0.0, 0.63, 0.0),
             half: DVec3::new(0.20, 0.36, 0.20),
-            points: 420,
+            points: 620,
             step: 0.025,
-            sight: 0.18,
+            sight: 0.15,
             twig: 0.0022,
             trunk_sides: 7,
             leaf: 0.036,
-            leaves: 5,
+            leaves: 4,
             leafy: 2.6,
             droop: 0.75,
+            leader: 0.75,
             stems: 1,
         },
     )
@@ -83,15 +87,16 @@ pub fn bush(seed: u64) -> Mesh {
             title: "bush, height 1, foot at the origin; groups trunk, leaves",
             centre: DVec3::new(0.0, 0.52, 0.0),
             half: DVec3::new(0.62, 0.47, 0.62),
-            points: 260,
-            step: 0.055,
-            sight: 0.34,
+            points: 520,
+            step: 0.045,
+            sight: 0.24,
             twig: 0.006,
             trunk_sides: 5,
-            leaf: 0.105,
+            leaf: 0.075,
             leaves: 5,
             leafy: 2.5,
             droop: 0.15,
+            leader: -0.75,
             stems: 5,
         },
     )
@@ -119,6 +124,8 @@ fn grow(seed: u64, kind: &Kind) -> Mesh {
             leaf(&mut mesh, node.at, kind, &mut random);
         }
     }
+    let top = mesh.positions.iter().fold(0.0_f64, |top, p| top.max(p.y));
+    mesh.positions.iter_mut().for_each(|p| *p /= top);
     mesh
 }
 
@@ -169,7 +176,7 @@ fn stem_up(nodes: &mut Vec<Node>, kind: &Kind, lean: DVec3, random: &mut Random)
         children: Vec::new(),
         radius: 0.0,
     });
-    let height = kind.centre.y - 0.55 * kind.half.y;
+    let height = kind.centre.y + kind.leader * kind.half.y;
     let mut direction = lean;
     while nodes.last().expect("the stem has a foot").at.y < height {
         direction = (direction + lean * 0.5 + random.in_ball() * 0.22).normalize();

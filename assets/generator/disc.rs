@@ -61,7 +61,7 @@ impl Disc {
 /// Where a surface of height `height(x, z)` meets the side of `solid` in a direction.
 pub fn rim(solid: &Solid, direction: (f64, f64), height: impl Fn(f64, f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.45, 1.0);
-    for _ in 0..50 {
+    for _ in 0..26 {
         let r = 0.5 * (low + high);
         let y = height(r * direction.0, r * direction.1);
         if solid.radius(direction, y) > r {

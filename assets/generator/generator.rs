@@ -25,6 +25,7 @@ pub mod textures;
 pub mod tube;
 pub mod water;
 
+use self::ground::Top;
 use self::terrain::Terrain;
 use self::textures::{bark, brick, dots, grid, land, leaf, rock, wood};
 
@@ -34,11 +35,18 @@ pub struct Asset {
     pub bytes: Vec<u8>,
 }
 
-type Make = fn(&Terrain) -> Vec<u8>;
+/// What several assets are made from.
+struct Land {
+    terrain: Terrain,
+    top: Top,
+    lie: land::Lie,
+}
+
+type Make = fn(&Land) -> Vec<u8>;
 
 const CATALOGUE: &[(&str, Make)] = &[
-    ("textures/terrain.png", |t| land::albedo(t).png()),
-    ("textures/terrain_normal.png", |t| land::normals(t).png()),
+    ("textures/terrain.png", |l| land::albedo(&l.terrain, &l.lie).png()),
+    ("textures/terrain_normal.png", |l| land::normals(&l.terrain, &l.lie).png()),
     ("textures/brick.png", |_| brick::wall(31).albedo().png()),
     ("textures/brick_normal.png", |_| brick::wall(31).normals().png()),
     ("textures/wood.png", |_| wood::planks(41).png()),
@@ -49,10 +57,10 @@ const CATALOGUE: &[(&str, Make)] = &[
     ("textures/grid.png", |_| grid::cells().png()),
     ("textures/bump_dots_normal.png", |_| dots::normals().png()),
     ("textures/flat_normal.png", |_| image::Image::filled(16, [128; 3]).with_flat_normal().png()),
-    ("obj/terrain.obj", |t| ground::solid(t).obj()),
-    ("obj/meadow.obj", |t| carriers::meadow(t).obj()),
-    ("obj/forest.obj", |t| carriers::forest(t).obj()),
-    ("obj/beach.obj", |t| carriers::beach(t).obj()),
+    ("obj/terrain.obj", |l| ground::solid(&l.top).obj()),
+    ("obj/meadow.obj", |l| carriers::meadow(&l.terrain, &l.top).obj()),
+    ("obj/forest.obj", |l| carriers::forest(&l.terrain, &l.top).obj()),
+    ("obj/beach.obj", |l| carriers::beach(&l.terrain, &l.top).obj()),
     ("obj/water.obj", |_| water::solid().obj()),
     ("obj/tree_pine.obj", |_| pine::tree(101).obj()),
     ("obj/tree_broadleaf.obj", |_| crown::broadleaf(111).obj()),
@@ -67,7 +75,9 @@ const CATALOGUE: &[(&str, Make)] = &[
 /// Makes every asset, in the catalogue's order.
 pub fn assets() -> Vec<Asset> {
     let terrain = Terrain::new(7);
-    CATALOGUE.par_iter().map(|(path, make)| Asset { path, bytes: make(&terrain) }).collect()
+    let (top, lie) = rayon::join(|| ground::top(&terrain), || land::Lie::of(&terrain));
+    let land = Land { terrain, top, lie };
+    CATALOGUE.par_iter().map(|(path, make)| Asset { path, bytes: make(&land) }).collect()
 }
 
 /// Writes `assets` below `folder`, which is made when missing.

@@ -36,17 +36,16 @@ pub fn top(terrain: &Terrain) -> Top {
 }
 
 /// The closed terrain.
-pub fn solid(terrain: &Terrain) -> Mesh {
-    let Top { disc, positions } = top(terrain);
+pub fn solid(Top { disc, positions }: &Top) -> Mesh {
     let mut mesh = Mesh::new("terrain of the terrarium: closed, fills the bottom of the glass");
     mesh.coordinates = positions.iter().map(|p| DVec2::new(0.5 + 0.5 * p.x, 0.5 - 0.5 * p.z)).collect();
-    mesh.positions = positions;
+    mesh.positions.clone_from(positions);
     mesh.group("");
     for face in disc.faces() {
         mesh.face(face);
     }
     mesh.smooth();
-    sides(&mut mesh, &disc, &Solid::new(SCALE));
+    sides(&mut mesh, disc, &Solid::new(SCALE));
     mesh
 }
 

@@ -51,7 +51,8 @@ impl Relief {
         Self { size, heights: places(size).map(|p| height(p.x, p.y)).collect() }
     }
 
-    fn at(&self, x: usize, y: usize) -> f64 {
+    /// The height of a pixel; indices wrap.
+    pub fn at(&self, x: usize, y: usize) -> f64 {
         self.heights[(y % self.size) * self.size + x % self.size]
     }
 

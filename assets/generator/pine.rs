@@ -8,7 +8,7 @@ use super::random::Random;
 use super::solid::turn;
 use super::tube::{self, Joint};
 
-const TIERS: usize = 17;
+const TIERS: usize = 20;
 
 /// The tree: height 1, foot at the origin, groups `trunk` and `leaves`.
 pub fn tree(seed: u64) -> Mesh {
@@ -27,12 +27,12 @@ pub fn tree(seed: u64) -> Mesh {
     mesh.group("leaves");
     for tier in 0..TIERS {
         let t = tier as f64 / (TIERS - 1) as f64;
-        let branches = 13 - (7.0 * t) as usize;
+        let branches = 12 - (4.0 * t) as usize;
         let spin = random.within(0.0, 360.0);
         for k in 0..branches {
             let degrees = spin + 360.0 * k as f64 / branches as f64 + random.within(-9.0, 9.0);
-            let y = 0.13 + 0.83 * t + random.within(-0.014, 0.014);
-            let reach = (0.235 * (1.0 - t) + 0.022) * random.within(0.82, 1.12);
+            let y = 0.155 + 0.795 * t * (1.25 - 0.25 * t) + random.within(-0.016, 0.016);
+            let reach = (0.225 * (1.0 - t * (1.2 - 0.2 * t)) + 0.046) * random.within(0.80, 1.12);
             branch(&mut mesh, y, degrees, reach, t, &mut random);
         }
     }
@@ -45,12 +45,12 @@ pub fn tree(seed: u64) -> Mesh {
 
 fn branch(mesh: &mut Mesh, y: f64, degrees: f64, reach: f64, t: f64, random: &mut Random) {
     let (sin, cos) = turn(degrees);
-    let lift = 0.10 + 0.75 * t + random.within(-0.08, 0.08);
+    let lift = 0.02 + 0.55 * t * t + random.within(-0.08, 0.08);
     let out = DVec3::new(sin, lift, cos).normalize();
     let side = DVec3::new(cos, 0.0, -sin);
-    let main = Branch { foot: DVec3::Y * y, out, side, sag: 0.42 - 0.25 * t, reach };
-    main.frond(mesh, 0.16 * reach + 0.006);
-    let pairs = if reach > 0.12 { 5 } else { 3 };
+    let main = Branch { foot: DVec3::Y * y, out, side, sag: 0.50 - 0.15 * t, reach };
+    main.frond(mesh, 0.17 * reach + 0.008);
+    let pairs = if reach > 0.10 { 4 } else { 2 };
     for pair in 0..pairs {
         let s = 0.25 + 0.62 * pair as f64 / pairs as f64;
         for hand in [-1.0, 1.0] {
@@ -64,7 +64,7 @@ fn branch(mesh: &mut Mesh, y: f64, degrees: f64, reach: f64, t: f64, random: &mu
                 sag: 0.35,
                 reach: reach * (0.52 - 0.34 * s) * random.within(0.85, 1.15),
             };
-            twig.frond(mesh, 0.07 * reach + 0.005);
+            twig.frond(mesh, 0.085 * reach + 0.006);
         }
     }
 }
@@ -87,7 +87,7 @@ impl Branch {
     fn frond(&self, mesh: &mut Mesh, width: f64) {
         let ridge = self.side.cross(self.out).normalize();
         let ridge = if ridge.y < 0.0 { -ridge } else { ridge };
-        let stations = [(0.0, 0.35), (0.4, 1.0), (0.75, 0.7)];
+        let stations = [(0.0, 0.4), (0.5, 1.0)];
         let tip = mesh.vertex(self.at(1.0), DVec2::new(0.5, 1.0), (ridge + self.out * 0.6).normalize());
         for hand in [-1.0, 1.0] {
             let eaves = (ridge + self.side * (hand * 0.8)).normalize();
@@ -109,7 +109,7 @@ impl Branch {
                 face(pair[0].0, pair[0].1, pair[1].1);
                 face(pair[0].0, pair[1].1, pair[1].0);
             }
-            face(pairs[2].0, pairs[2].1, tip);
+            face(pairs[1].0, pairs[1].1, tip);
         }
     }
 }

@@ -13,7 +13,10 @@ pub fn mix(x: u64) -> u64 {
 
 /// A hash of a lattice point under a seed.
 pub fn lattice(seed: u64, x: i64, y: i64) -> u64 {
-    mix(mix(mix(seed) ^ x as u64) ^ y as u64)
+    let place = (x as u64)
+        .wrapping_mul(0xd6e8_feb8_6659_fd93)
+        .wrapping_add((y as u64).wrapping_mul(0xa076_1d64_78bd_642f));
+    mix(place ^ seed.wrapping_mul(0x8bb8_4b93_962e_acc9))
 }
 
 /// The top 53 bits of a hash as a value in [0, 1).

@@ -2,8 +2,6 @@
 //! meadow in the middle and on the left, ridged mountains at the back. Mesh (`ground.rs`),
 //! carriers (`carriers.rs`) and textures (`textures/land.rs`) all read it here.
 
-use glam::DVec3;
-
 use super::erosion::{self, Grid};
 use super::noise::{Noise, mix, smoothstep};
 use super::random::Random;
@@ -14,12 +12,12 @@ pub const SUMMIT: f64 = 0.25;
 
 /// x, z, height and radius of each mountain.
 const MOUNTAINS: [[f64; 4]; 6] = [
-    [-0.10, -0.44, 0.70, 0.25],
-    [0.34, -0.40, 0.52, 0.20],
-    [-0.47, -0.30, 0.42, 0.18],
-    [0.66, -0.26, 0.26, 0.15],
-    [0.12, -0.64, 0.40, 0.18],
-    [-0.72, -0.12, 0.20, 0.14],
+    [-0.08, -0.46, 0.66, 0.30],
+    [0.36, -0.44, 0.50, 0.25],
+    [-0.48, -0.34, 0.38, 0.22],
+    [0.66, -0.30, 0.22, 0.17],
+    [0.12, -0.70, 0.34, 0.22],
+    [-0.74, -0.14, 0.14, 0.15],
 ];
 
 /// The finished land.
@@ -45,9 +43,9 @@ impl Terrain {
     pub fn new(seed: u64) -> Self {
         let mut heights = Grid::new(385, |x, z| raised(seed, x, z));
         let mut random = Random::new(seed);
-        erosion::crumble(&mut heights, 20, 1.7);
-        let passed = erosion::rain(&mut heights, 70_000, LEVEL - 0.002, &mut random);
-        erosion::crumble(&mut heights, 12, 1.5);
+        erosion::crumble(&mut heights, 30, 1.25);
+        let passed = erosion::rain(&mut heights, 90_000, LEVEL - 0.002, &mut random);
+        erosion::crumble(&mut heights, 10, 1.35);
         let top = heights.cells.iter().fold(f64::MIN, |top, &h| top.max(h));
         let foot = -0.25;
         for height in &mut heights.cells {
@@ -72,24 +70,18 @@ impl Terrain {
         self.brooks.at(x, z)
     }
 
-    /// The unit normal, from central differences over `step`.
-    pub fn normal(&self, x: f64, z: f64, step: f64) -> DVec3 {
-        let along_x = self.height(x + step, z) - self.height(x - step, z);
-        let along_z = self.height(x, z + step) - self.height(x, z - step);
-        DVec3::new(-along_x, 2.0 * step, -along_z).normalize()
-    }
-
     /// What grows or lies at a place of height `y` and upward normal component `up`.
     pub fn cover(&self, x: f64, z: f64, y: f64, up: f64) -> Cover {
         let rag = Noise::new(self.seed + 50).fbm(x * 18.0, z * 18.0, 4);
         let woods = Noise::new(self.seed + 51).fbm(x * 3.2 + 5.0, z * 3.2, 3);
         let high = smoothstep(-0.16, -0.04, y + 0.05 * rag);
         let steep = smoothstep(0.86, 0.74, up + 0.06 * rag);
-        let line = 0.035 + 0.045 * rag + 0.10 * smoothstep(0.85, 0.55, up);
+        let line = -0.055 + 0.06 * rag + 0.13 * smoothstep(0.80, 0.50, up);
         Cover {
-            rock: steep.max(high * smoothstep(0.97, 0.88, up + 0.05 * rag)),
-            snow: smoothstep(line - 0.018, line + 0.018, y) * smoothstep(0.45, 0.58, up + 0.08 * rag),
-            sand: smoothstep(0.026, 0.014, y - LEVEL + 0.012 * rag),
+            rock: smoothstep(-0.01, 0.02, y - LEVEL)
+                * steep.max(high * smoothstep(0.97, 0.88, up + 0.05 * rag)),
+            snow: smoothstep(line - 0.02, line + 0.02, y) * smoothstep(0.32, 0.46, up + 0.12 * rag),
+            sand: smoothstep(0.022, 0.012, y - LEVEL + 0.010 * rag),
             forest: smoothstep(-0.05, 0.12, woods + 0.9 * smoothstep(-0.31, -0.20, y) - 0.42)
                 * smoothstep(0.04, 0.07, y - LEVEL),
         }
@@ -119,7 +111,7 @@ fn shore(x: f64, z: f64) -> f64 {
     let bay = oval(-0.06, 0.20, 0.20, 0.12);
     let blend = smoothstep(-0.12, 0.12, lake - bay);
     let water = mix(lake, bay, blend) - 0.12 * blend * (1.0 - blend);
-    water.max(-oval(0.30, 0.30, 0.055, 0.04))
+    water.max(-oval(0.36, 0.33, 0.10, 0.065))
 }
 
 /// Height against the water level at distance `d` into the lake.
@@ -131,7 +123,7 @@ fn mountains(seed: u64, x: f64, z: f64) -> f64 {
     let mut envelope = 0.0_f64;
     for [cx, cz, height, radius] in MOUNTAINS {
         let square = ((x - cx) * (x - cx) + (z - cz) * (z - cz)) / (radius * radius);
-        let bell = height * libm::exp(-0.9 * square);
+        let bell = height * 1.25 * libm::exp(-1.25 * square.sqrt()).min(0.8);
         // A soft maximum keeps passes between neighbours without adding their heights up.
         envelope = (envelope * envelope + bell * bell).sqrt();
     }

@@ -76,10 +76,10 @@ impl Wall {
         Image::paint(SIZE, |x, y| {
             let spot = self.spot(x, y);
             let own = unit(spot.id ^ 1);
-            let base = ramp(&[0x6e3526, 0x8c4630, 0x9d5138, 0xb0664a, 0x8a5546], unit(spot.id ^ 2));
+            let base = ramp(&[0x64372b, 0x7f4634, 0x8d503c, 0x9a6049, 0x7d5548], unit(spot.id ^ 2));
             let dark = if own > 0.86 { 0.68 } else { 0.9 + 0.2 * own };
             let cloud = 1.0 + 0.16 * burnt.fbm(x * 9.0, y * 24.0, 3) + 0.13 * spot.grain;
-            let brick = (base * dark * cloud).lerp(hex(0xc08a6c) * cloud, 0.35 * spot.chip);
+            let brick = (base * dark * cloud).lerp(hex(0xb08a72) * cloud, 0.35 * spot.chip);
             let mortar = hex(0xa39a8c) * (0.88 + 0.35 * spot.height / 0.05 * 0.3 + 0.10 * spot.grain);
             let lime = smoothstep(0.25, 0.7, stain.fbm(x * 3.0, y * 3.0, 5));
             let colour = mortar.lerp(brick, spot.brick).lerp(DVec3::splat(0.72), 0.16 * lime);

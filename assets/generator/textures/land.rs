@@ -12,21 +12,39 @@ use super::super::water::LEVEL;
 
 const SIZE: usize = 1024;
 
+/// The land's heights on the pixels.
+pub struct Lie(Relief);
+
+impl Lie {
+    /// Samples the land.
+    pub fn of(terrain: &Terrain) -> Self {
+        Self(Relief::new(SIZE, |u, down| terrain.height(2.0 * u - 1.0, 2.0 * down - 1.0)))
+    }
+
+    /// Height, and upward component of the normal over four pixels, at a pixel.
+    fn at(&self, u: f64, down: f64) -> [f64; 2] {
+        let (x, y) = ((u * SIZE as f64) as usize + SIZE, (down * SIZE as f64) as usize + SIZE);
+        // Four pixels are 8/SIZE of the plan, which is 2 wide.
+        let slope = |a: f64, b: f64| (b - a) * SIZE as f64 / 8.0;
+        let along_x = slope(self.0.at(x - 2, y), self.0.at(x + 2, y));
+        let along_z = slope(self.0.at(x, y - 2), self.0.at(x, y + 2));
+        [self.0.at(x, y), 1.0 / (1.0 + along_x * along_x + along_z * along_z).sqrt()]
+    }
+}
+
 /// The albedo in sRGB.
-pub fn albedo(terrain: &Terrain) -> Image {
+pub fn albedo(terrain: &Terrain, lie: &Lie) -> Image {
     Image::paint(SIZE, |u, down| {
         if u > SOIL - 0.004 && down < 1.0 - SOIL + 0.004 {
             return soil((u - SOIL) / (1.0 - SOIL), 1.0 - down / (1.0 - SOIL));
         }
         let (x, z) = (2.0 * u - 1.0, 2.0 * down - 1.0);
         // Off the plan nothing is seen, and one colour packs well.
-        if x * x + z * z > 1.02 { hex(0x5a5a3c) } else { ground(terrain, x, z) }
+        if x * x + z * z > 1.02 { hex(0x5a5a3c) } else { ground(terrain, x, z, lie.at(u, down)) }
     })
 }
 
-fn ground(terrain: &Terrain, x: f64, z: f64) -> DVec3 {
-    let y = terrain.height(x, z);
-    let up = terrain.normal(x, z, 0.004).y;
+fn ground(terrain: &Terrain, x: f64, z: f64, [y, up]: [f64; 2]) -> DVec3 {
     let Cover { rock, snow, sand, forest } = terrain.cover(x, z, y, up);
     let broad = Noise::new(801).fbm(x * 6.0, z * 6.0, 3);
     let fine = Noise::new(802).fbm(x * 45.0, z * 45.0, 3);
@@ -39,9 +57,13 @@ fn ground(terrain: &Terrain, x: f64, z: f64) -> DVec3 {
     let dry_sand = ramp(&[0xa88f63, 0xc4ab7c, 0xd6c194], 0.5 + 0.35 * fine + 0.3 * broad);
     let wet_sand = dry_sand * mix(0.72, 0.45, deep) + hex(0x0c1a14) * deep;
     let layers = Noise::new(803).fbm(x * 4.0, z * 4.0, 3);
-    let stratum = libm::sin(y * 150.0 + 5.0 * layers) * 0.5 + 0.35 * libm::sin(y * 420.0 + 9.0 * layers);
-    let stone =
-        ramp(&[0x4b4640, 0x6a635a, 0x857b6e, 0x9c9181], 0.5 + 0.24 * stratum + 0.22 * fine - 0.35 * brook);
+    let tilt = y + 0.12 * x + 0.05 * layers;
+    let stratum = Noise::new(804).fbm(tilt * 34.0, 3.0 + 0.5 * layers, 3) * smoothstep(-0.7, 0.5, broad);
+    let grit = Noise::new(805).ridged(x * 30.0, z * 30.0, 4) - 0.5;
+    let stone = ramp(
+        &[0x4b4640, 0x6a635a, 0x857b6e, 0x9c9181],
+        0.5 + 0.42 * stratum + 0.20 * fine + 0.35 * grit - 0.30 * brook,
+    );
     let white = ramp(&[0xd5dfea, 0xeef3f8, 0xfbfcfd], 0.6 + 0.3 * fine - 0.3 * brook);
 
     let mut colour = grass.lerp(floor, forest);
@@ -59,25 +81,25 @@ fn soil(across: f64, up: f64) -> DVec3 {
     let depth = y + wave;
     let layers = ramp(
         &[
-            0x4a4540, 0x5d564c, 0x4f473c, 0x75664d, 0x8a7550, 0x5e4a33, 0x6b5238, 0x4b3826, 0x3d2f1f,
-            0x5b5247, 0x6f675b, 0x5f574d, 0x7a7062, 0x696054,
+            0x67615a, 0x8a8070, 0x6b5f50, 0xa08a66, 0xb39a6c, 0x7d6344, 0x93734e, 0x6a4f36, 0x56412c,
+            0x6b6154, 0x6f675b, 0x5f574d, 0x7a7062, 0x696054,
         ],
         ((depth - SOIL_FROM) / (SOIL_TO - SOIL_FROM)).clamp(0.0, 1.0),
     );
-    let stone = smoothstep(0.26, 0.16, Noise::new(813).cell(across * 13.0, up * 26.0).first);
+    let pebbles = Noise::new(813).cell(across * 9.0, up * 22.0);
+    let stone = smoothstep(0.30, 0.20, pebbles.first) * if pebbles.id % 3 == 0 { 1.0 } else { 0.0 };
     layers * (1.0 + 0.22 * fine) * mix(1.0, 1.35, stone)
 }
 
 /// Normals of grain, tufts, cracks and ripples.
-pub fn normals(terrain: &Terrain) -> Image {
+pub fn normals(terrain: &Terrain, lie: &Lie) -> Image {
     let relief = Relief::new(SIZE, |u, down| {
         let (x, z) = (2.0 * u - 1.0, 2.0 * down - 1.0);
         let soil = u > SOIL - 0.01 && down < 1.0 - SOIL + 0.01;
         if soil || x * x + z * z > 1.02 {
             return 0.0;
         }
-        let y = terrain.height(x, z);
-        let up = terrain.normal(x, z, 0.004).y;
+        let [y, up] = lie.at(u, down);
         let Cover { rock, snow, sand, forest } = terrain.cover(x, z, y, up);
         let tufts = 0.0011 * Noise::new(821).fbm(x * 60.0, z * 60.0, 2);
         let ripple =
