@@ -87,7 +87,7 @@ pub fn bush(seed: u64) -> Mesh {
             title: "bush, height 1, foot at the origin; groups trunk, leaves",
             centre: DVec3::new(0.0, 0.52, 0.0),
             half: DVec3::new(0.62, 0.47, 0.62),
-            points: 520,
+            points: 420,
             step: 0.045,
             sight: 0.24,
             twig: 0.006,

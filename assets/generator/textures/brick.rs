@@ -61,10 +61,11 @@ impl Wall {
         let chip = smoothstep(0.16, 0.46, chip_noise - 1.3 * edge.max(0.0) + 0.05);
         let edge = edge - 0.06 * chip;
         let brick = smoothstep(-0.012, 0.012, edge);
-        let face = 0.11 * smoothstep(-0.02, 0.07, edge) + 0.018 * fine + 0.02 * wx - 0.045 * chip;
+        let face = 0.11 * smoothstep(-0.02, 0.07, edge) + 0.015 * fine + 0.02 * wx - 0.045 * chip;
         let pit = smoothstep(0.20, 0.08, Noise::tiling(seed + 4, 70, 70).cell(x * 70.0, y * 70.0).first);
         let tilt = 0.03 * (unit(id ^ 77) - 0.5) * along;
-        let mortar = 0.022 * Noise::tiling(seed + 5, 128, 128).fbm(x * 128.0, y * 128.0, 2);
+        let sand = |n: Noise| 0.022 * n.fbm(x * 96.0, y * 96.0, 2);
+        let mortar = if brick < 1.0 { sand(Noise::tiling(seed + 5, 96, 96)) } else { 0.0 };
         let height = mix(mortar, face + tilt - 0.015 * pit * unit(id ^ 5), brick);
         Spot { brick, height, id, chip, grain: fine - 0.5 * pit }
     }
