@@ -4,7 +4,6 @@
 //! them; a module names only modules above it (`tests/layers.rs` enforces that).
 #![forbid(unsafe_code)]
 
-pub mod build;
 pub mod math;
 
 pub mod optics;

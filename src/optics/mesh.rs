@@ -24,6 +24,14 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
+    pub fn memory_bytes(&self) -> usize {
+        size_of_val(self.positions.as_slice())
+            + size_of_val(self.normals.as_slice())
+            + size_of_val(self.uvs.as_slice())
+            + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.parts.as_slice())
+    }
+
     /// The corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize].as_dvec3())
