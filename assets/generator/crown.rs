@@ -157,7 +157,7 @@ fn colonise(kind: &Kind, random: &mut Random) -> Vec<Node> {
             if pull.length() > 0.05 && nodes[i].children.len() < 3 {
                 let wander = random.in_ball() * 0.25;
                 let direction = (pull.normalize() + wander + DVec3::Y * 0.08).normalize();
-                add(&mut nodes, Some(i), kind.step, direction);
+                add(&mut nodes, i, kind.step, direction);
             }
         }
         if nodes.len() == before {
@@ -181,14 +181,13 @@ fn stem_up(nodes: &mut Vec<Node>, kind: &Kind, lean: DVec3, random: &mut Random)
     while nodes.last().expect("the stem has a foot").at.y < height {
         direction = (direction + lean * 0.5 + random.in_ball() * 0.22).normalize();
         let end = nodes.len() - 1;
-        add(nodes, Some(end), kind.step, direction);
+        add(nodes, end, kind.step, direction);
     }
 }
 
-fn add(nodes: &mut Vec<Node>, parent: Option<usize>, step: f64, direction: DVec3) {
-    let from = parent.expect("a branch grows from a node");
+fn add(nodes: &mut Vec<Node>, from: usize, step: f64, direction: DVec3) {
     let at = nodes[from].at + direction * step;
-    nodes.push(Node { at, parent, children: Vec::new(), radius: 0.0 });
+    nodes.push(Node { at, parent: Some(from), children: Vec::new(), radius: 0.0 });
     let new = nodes.len() - 1;
     nodes[from].children.push(new);
 }
@@ -251,7 +250,7 @@ fn branches(mesh: &mut Mesh, nodes: &[Node], kind: &Kind) {
     }
 }
 
-/// A rhomb from its stalk outward, slightly folded along nothing: two triangles.
+/// A rhomb from its stalk outward: two triangles.
 fn leaf(mesh: &mut Mesh, at: DVec3, kind: &Kind, random: &mut Random) {
     let outward = ((at - kind.centre) / kind.half).normalize_or_zero();
     let free = random.direction() + outward * 0.5;

@@ -55,7 +55,7 @@ fn sides(mesh: &mut Mesh, disc: &Disc, hull: &Solid) {
     mesh.normals.extend(normals());
     let columns = disc.columns();
     // lines[k][j]: position and coordinate of line k (0 is the rim) in column j.
-    let mut lines = vec![Vec::with_capacity(columns); ROWS + 1];
+    let mut lines = vec![Vec::new(); ROWS + 1];
     for j in 0..columns {
         let direction = disc.direction(j);
         let rim = disc.index(disc.rings, j);

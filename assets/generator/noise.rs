@@ -36,7 +36,6 @@ impl Noise {
     }
 
     fn hash(&self, x: i64, y: i64) -> u64 {
-        let wrap = |i: i64, period: i64| if period > 0 { i.rem_euclid(period) } else { i };
         lattice(self.seed, wrap(x, self.period[0]), wrap(y, self.period[1]))
     }
 
@@ -45,8 +44,11 @@ impl Noise {
         let (fx, fy) = (x.floor(), y.floor());
         let (ix, iy) = (fx as i64, fy as i64);
         let (dx, dy) = (x - fx, y - fy);
+        let columns = [wrap(ix, self.period[0]), wrap(ix + 1, self.period[0])];
+        let rows = [wrap(iy, self.period[1]), wrap(iy + 1, self.period[1])];
         let corner = |cx: i64, cy: i64| {
-            let g = GRADIENTS[(self.hash(ix + cx, iy + cy) >> 61) as usize];
+            let hash = lattice(self.seed, columns[cx as usize], rows[cy as usize]);
+            let g = GRADIENTS[(hash >> 61) as usize];
             g[0] * (dx - cx as f64) + g[1] * (dy - cy as f64)
         };
         let (u, v) = (fade(dx), fade(dy));
@@ -103,6 +105,10 @@ impl Noise {
         }
         Cell { first: found.first.sqrt(), second: found.second.sqrt(), id: found.id }
     }
+}
+
+fn wrap(i: i64, period: i64) -> i64 {
+    if period > 0 { i64::from((i as i32).rem_euclid(period as i32)) } else { i }
 }
 
 fn fade(t: f64) -> f64 {

@@ -71,7 +71,7 @@ fn share(mesh: &mut Mesh) {
 
 /// The icosahedron's corners at height ±1/√5 and the poles, each face cut in four `LEVELS` times.
 fn sphere() -> (Vec<DVec3>, Vec<[usize; 3]>) {
-    let (up, out) = (0.447_213_595_499_957_94, 0.894_427_190_999_915_9);
+    let (up, out) = (0.447_213_595_499_957_9, 0.894_427_190_999_915_9);
     let mut points = vec![DVec3::Y];
     for k in 0..10 {
         let (sin, cos) = super::solid::turn(36.0 * k as f64);

@@ -8,7 +8,7 @@ pub const INRADIUS: f64 = 0.794_654_472_291_766_1;
 /// The scale of the cavity: the inner side of the glass.
 pub const CAVITY: f64 = 0.96;
 /// Neighbouring faces' normals have this cosine between them: 1/√5.
-const ACROSS: f64 = 0.447_213_595_499_957_94;
+const ACROSS: f64 = 0.447_213_595_499_957_9;
 /// 2/√5, its sine.
 const ALONG: f64 = 0.894_427_190_999_915_9;
 

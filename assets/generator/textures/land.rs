@@ -87,7 +87,7 @@ fn soil(across: f64, up: f64) -> DVec3 {
         ((depth - SOIL_FROM) / (SOIL_TO - SOIL_FROM)).clamp(0.0, 1.0),
     );
     let pebbles = Noise::new(813).cell(across * 9.0, up * 22.0);
-    let stone = smoothstep(0.30, 0.20, pebbles.first) * if pebbles.id % 3 == 0 { 1.0 } else { 0.0 };
+    let stone = smoothstep(0.30, 0.20, pebbles.first) * if pebbles.id.is_multiple_of(3) { 1.0 } else { 0.0 };
     layers * (1.0 + 0.22 * fine) * mix(1.0, 1.35, stone)
 }
 
