@@ -140,8 +140,8 @@ impl<R: BufRead> Canonical<R> {
         Ok(())
     }
 
-    fn position<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Checked<()> {
-        let values = numbers(words, "a position", 3, 7)?;
+    fn position<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> Checked<()> {
+        let values = numbers(words.clone(), "a position", 3, 7)?;
         let divisor = if matches!(values.len(), 4 | 7) { values[3] } else { 1.0 };
         let at = [0, 1, 2].map(|k| values[k] / divisor);
         if divisor == 0.0 || !at.iter().all(|x| x.is_finite()) {
@@ -149,10 +149,14 @@ impl<R: BufRead> Canonical<R> {
         }
         let number = self.counts[0];
         self.counts[0] += 1;
-        self.write(format_args!("v {:e} {:e} {:e} {number} 0 0\n", at[0], at[1], at[2]))
+        if divisor != 1.0 {
+            return self.write(format_args!("v {:e} {:e} {:e} {number} 0 0\n", at[0], at[1], at[2]));
+        }
+        self.copy(b"v", words.take(3));
+        self.write(format_args!(" {number} 0 0\n"))
     }
 
-    fn uv<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Checked<()> {
+    fn uv<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> Checked<()> {
         let values = numbers(words, "a texture coordinate", 1, 3)?;
         let uv = [values[0], values.get(1).copied().unwrap_or(0.0)];
         self.counts[1] += 1;
@@ -163,18 +167,19 @@ impl<R: BufRead> Canonical<R> {
         self.write(format_args!("vt 0 0\n"))
     }
 
-    fn normal<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Checked<()> {
-        let values = numbers(words, "a normal", 3, 3)?;
+    fn normal<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> Checked<()> {
+        let values = numbers(words.clone(), "a normal", 3, 3)?;
         let [x, y, z] = [values[0], values[1], values[2]];
         self.counts[2] += 1;
         if direction([x, y, z]) != Vec3::ZERO {
-            return self.write(format_args!("vn {x:e} {y:e} {z:e}\n"));
+            self.copy(b"vn", words);
+            return self.write(format_args!("\n"));
         }
         self.notes.bad_normals += 1;
         self.write(format_args!("vn 0 0 0\n"))
     }
 
-    fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Checked<()> {
+    fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> Checked<()> {
         self.tell_part()?;
         self.write(format_args!("f"))?;
         let mut corners = 0;
@@ -254,6 +259,15 @@ impl<R: BufRead> Canonical<R> {
             self.write(format_args!("g {part}\n"))?;
         }
         Ok(())
+    }
+
+    /// The words as they are: as numbers, they have been checked.
+    fn copy<'a>(&mut self, keyword: &[u8], words: impl Iterator<Item = &'a [u8]>) {
+        self.out.extend_from_slice(keyword);
+        for word in words {
+            self.out.push(b' ');
+            self.out.extend_from_slice(word);
+        }
     }
 
     fn write(&mut self, text: std::fmt::Arguments) -> Checked<()> {
