@@ -6,8 +6,8 @@
 //! not multiplied by alpha and in EXR is. Embedded profiles and gamma values are ignored too.
 
 mod error;
-mod exr;
 mod jpeg;
+mod open_exr;
 mod png;
 mod textures;
 
@@ -120,7 +120,7 @@ pub fn decode(path: &Path, bytes: &[u8], limits: &Limits) -> Result<LoadedImage,
         let (width, height, pixels) = match format {
             Format::Png => png::decode(bytes, limits),
             Format::Jpeg => jpeg::decode(bytes, limits),
-            Format::Exr => exr::decode(bytes, limits),
+            Format::Exr => open_exr::decode(bytes, limits),
         }?;
         Ok(LoadedImage { width, height, pixels, format, warnings: Vec::new() })
     };
