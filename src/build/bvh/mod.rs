@@ -13,6 +13,7 @@ mod mesh;
 mod node;
 mod packet;
 mod ray;
+mod store;
 #[cfg(test)]
 mod tests;
 mod traverse;
