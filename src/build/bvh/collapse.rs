@@ -3,7 +3,7 @@
 //! Packets"; Dammertz, Hanika & Keller 2008).
 
 use super::binned::{Binary, BinaryNode};
-use super::node::{Child, Node};
+use super::node::{self, Child, Node, Rows};
 use crate::math::Aabb;
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ pub struct Leaf {
 /// name them.
 #[derive(Debug, Default)]
 pub struct Wide {
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<Rows>,
     pub leaves: Vec<Leaf>,
 }
 
@@ -90,7 +90,7 @@ pub fn collapse(tree: &Binary) -> Wide {
 fn append(place: Place, wide: &mut Wide) {
     let lanes = lanes_of(place);
     let here = wide.nodes.len();
-    wide.nodes.push(Node::empty());
+    wide.nodes.push(node::EMPTY);
     let mut parts = if place.count() > TASK {
         let task = |p: &Place| {
             let mut part = Wide::default();
@@ -118,7 +118,7 @@ fn append(place: Place, wide: &mut Wide) {
                 Child::Node(root)
             }
         };
-        wide.nodes[here].set(lane, &p.bounds(), child);
+        node::set(&mut wide.nodes[here], lane, &p.bounds(), child);
     }
 }
 
@@ -145,15 +145,13 @@ fn lanes_of(place: Place) -> Vec<Place> {
 /// Appends a finished subtree, and returns its root.
 fn splice(mut part: Wide, wide: &mut Wide) -> Child {
     let (nodes, leaves) = (wide.nodes.len() as u32, wide.leaves.len() as u32);
-    for node in &mut part.nodes {
-        for lane in 0..8 {
-            if !node.bounds(lane).is_empty() {
-                let moved = match Child::from_bits(node.child(lane)) {
-                    Child::Node(n) => Child::Node(n + nodes),
-                    Child::Leaf(n) => Child::Leaf(n + leaves),
-                };
-                node.set_child(lane, moved);
-            }
+    for rows in &mut part.nodes {
+        for (lane, _, child) in Node(&rows.clone()).filled() {
+            let moved = match child {
+                Child::Node(n) => Child::Node(n + nodes),
+                Child::Leaf(n) => Child::Leaf(n + leaves),
+            };
+            node::set_child(rows, lane, moved);
         }
     }
     wide.nodes.append(&mut part.nodes);

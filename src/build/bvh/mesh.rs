@@ -4,9 +4,10 @@
 use super::binned::{self, Item};
 use super::collapse::{Leaf, collapse};
 use super::lanes::{Lanes, Machine, Work};
-use super::node::{MAX_COUNT, Node};
-use super::packet::{Packet, Shear, TriangleHit};
+use super::node::{self, MAX_COUNT};
+use super::packet::{self, Packet, Shear, TriangleHit};
 use super::ray::{BoxRay, Slabs};
+use super::store::Store;
 use super::traverse::walk;
 use super::tree::check;
 use crate::math::{Aabb, Vec3};
@@ -21,8 +22,8 @@ const LANES: usize = 8;
 /// leave single precision, and hits are missed.
 #[derive(Clone, Debug)]
 pub struct TriangleBvh {
-    nodes: Vec<Node>,
-    packets: Vec<Packet>,
+    nodes: Store<node::Rows>,
+    packets: Store<packet::Rows>,
     bounds: Aabb,
     triangles: usize,
     machine: Machine,
@@ -39,25 +40,25 @@ impl TriangleBvh {
             .enumerate()
             .filter_map(|(i, t)| solid(vertices, t).map(|v| Item::new(&Aabb::from_points(v), i as u32)))
             .collect();
+        let machine = Machine::detect();
         if items.is_empty() {
-            let machine = Machine::detect();
-            return TriangleBvh {
-                nodes: vec![],
-                packets: vec![],
-                bounds: Aabb::EMPTY,
-                triangles: 0,
-                machine,
-            };
+            let (nodes, packets) = (Store::zeroed(0), Store::zeroed(0));
+            return TriangleBvh { nodes, packets, bounds: Aabb::EMPTY, triangles: 0, machine };
         }
         let binary = binned::build(&mut items, LANES);
         let order: Vec<u32> = items.par_iter().map(Item::index).collect();
         drop(items);
-        let mut wide = collapse(&binary);
+        let wide = collapse(&binary);
         drop(binary);
-        wide.nodes.shrink_to_fit();
-        let bounds = wide.nodes[0].filled().fold(Aabb::EMPTY, |all, (b, _)| all.union(b));
-        let packets = wide.leaves.par_iter().map(|leaf| packet(leaf, &order, vertices, triangles)).collect();
-        TriangleBvh { nodes: wide.nodes, packets, bounds, triangles: order.len(), machine: Machine::detect() }
+        let mut nodes = Store::zeroed(wide.nodes.len());
+        nodes.blocks_mut().copy_from_slice(&wide.nodes);
+        let mut packets = Store::zeroed(wide.leaves.len());
+        let fill = |(rows, leaf): (&mut packet::Rows, &Leaf)| {
+            *rows = packet(leaf, &order, vertices, triangles);
+        };
+        packets.blocks_mut().par_iter_mut().zip(&wide.leaves).for_each(fill);
+        let bounds = node::root_bounds(&wide.nodes);
+        TriangleBvh { nodes, packets, bounds, triangles: order.len(), machine }
     }
 
     /// The nearest hit with 0 < t < `t_max`, on either side of a triangle. Of hits at one distance,
@@ -84,17 +85,18 @@ impl TriangleBvh {
         self.triangles
     }
 
-    /// Bytes on the heap.
+    /// Bytes that the tree takes.
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.packets.capacity() * size_of::<Packet>()
+        self.nodes.bytes() + self.packets.bytes()
     }
 
     /// Checks the tree against what it was built from: every triangle with an area is there once,
     /// unaltered, within all the boxes above it.
     pub fn validate(&self, vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), String> {
         let mut seen = vec![false; triangles.len()];
-        check(&self.nodes, &mut |leaf, bounds| {
-            for (i, corners) in self.packets.get(leaf as usize).ok_or("a leaf names no packet")?.filled() {
+        check(self.nodes.blocks(), &mut |leaf, bounds| {
+            let packet = self.packets.blocks().get(leaf as usize).ok_or("a leaf names no packet")?;
+            for (i, corners) in Packet(packet).filled() {
                 let given = triangles.get(i as usize).and_then(|t| solid(vertices, t));
                 if given != Some(corners) || std::mem::replace(&mut seen[i as usize], true) {
                     return Err("a triangle is there twice, or altered");
@@ -114,8 +116,9 @@ impl TriangleBvh {
     /// Everything that the tree holds, for comparing trees.
     #[cfg(test)]
     pub(super) fn fingerprint(&self) -> (Vec<[u32; 64]>, Vec<Vec<u32>>) {
-        let ids = |p: &Packet| p.filled().map(|(i, _)| i).collect();
-        (self.nodes.iter().map(Node::to_bits).collect(), self.packets.iter().map(ids).collect())
+        let bits = |rows| node::Node(rows).to_bits();
+        let ids = |rows| Packet(rows).filled().map(|(i, _)| i).collect();
+        (self.nodes.blocks().iter().map(bits).collect(), self.packets.blocks().iter().map(ids).collect())
     }
 
     #[cfg(test)]
@@ -133,13 +136,13 @@ fn solid(vertices: &[Vec3], triangle: &[u32; 3]) -> Option<[Vec3; 3]> {
     ((b - a).cross(c - a).abs().max_element() > 0.0).then_some(v)
 }
 
-fn packet(leaf: &Leaf, order: &[u32], vertices: &[Vec3], triangles: &[[u32; 3]]) -> Packet {
-    let mut packet = Packet::EMPTY;
+fn packet(leaf: &Leaf, order: &[u32], vertices: &[Vec3], triangles: &[[u32; 3]]) -> packet::Rows {
+    let mut rows = packet::EMPTY;
     let ids = &order[leaf.first as usize..][..leaf.count as usize];
     for (lane, &id) in ids.iter().enumerate() {
-        packet.set(lane, id, triangles[id as usize].map(|v| vertices[v as usize]));
+        packet::set(&mut rows, lane, id, triangles[id as usize].map(|v| vertices[v as usize]));
     }
-    packet
+    rows
 }
 
 struct Nearest<'a> {
@@ -158,16 +161,17 @@ impl Work for Nearest<'_> {
         }
         let slabs = Slabs::new(lanes, self.ray, &self.mesh.bounds);
         let shear = Shear::new(lanes, self.ray, &self.mesh.bounds);
+        let (nodes, packets) = (self.mesh.nodes.blocks(), self.mesh.packets.blocks());
         let mut best = TriangleHit { t: self.t_max, triangle: 0, b: [0.0; 3] };
         let mut found = false;
         walk::<L, true>(
             lanes,
-            &self.mesh.nodes,
+            nodes,
             &slabs,
             self.t_max,
             #[inline(always)]
             |leaf, _| {
-                found |= self.mesh.packets[leaf as usize].nearest(lanes, &shear, &mut best);
+                found |= Packet(&packets[leaf as usize]).nearest(lanes, &shear, &mut best);
                 best.t
             },
         );
@@ -191,15 +195,16 @@ impl Work for Any<'_> {
         }
         let slabs = Slabs::new(lanes, self.ray, &self.mesh.bounds);
         let shear = Shear::new(lanes, self.ray, &self.mesh.bounds);
+        let (nodes, packets) = (self.mesh.nodes.blocks(), self.mesh.packets.blocks());
         let mut found = false;
         walk::<L, false>(
             lanes,
-            &self.mesh.nodes,
+            nodes,
             &slabs,
             self.t_max,
             #[inline(always)]
             |leaf, t_max| {
-                found = self.mesh.packets[leaf as usize].any(lanes, &shear, t_max);
+                found = Packet(&packets[leaf as usize]).any(lanes, &shear, t_max);
                 if found { -1.0 } else { t_max }
             },
         );

@@ -3,7 +3,7 @@
 //! [`Bvh`] is over boxes, for the instances and single shapes of a scene; [`TriangleBvh`] is over
 //! the triangles of a mesh. Building: binned surface area heuristic (`binned`), then collapsed to
 //! eight children a node (`collapse`). Traversal: `traverse`, with the slab test of `ray` and the
-//! triangle test of `packet`. Sources stand in those files. All of it gives the same bits on any
+//! triangle test of `packet`; large trees lie on huge pages (`store`). Sources stand in those files. All of it gives the same bits on any
 //! machine and for any number of threads.
 
 mod binned;
@@ -13,6 +13,7 @@ mod mesh;
 mod node;
 mod packet;
 mod ray;
+mod store;
 #[cfg(test)]
 mod tests;
 mod traverse;

@@ -10,14 +10,28 @@ use super::lanes::{Array, Lanes};
 use super::ray::{BoxRay, PROJECTION_ERROR};
 use crate::math::{Aabb, Vec3};
 
-/// Eight triangles: `vertices[i][k]` is coordinate k of vertex i. Lanes without a triangle hold
-/// NaN, which no test passes.
-#[derive(Clone, Debug)]
-#[repr(C, align(64))]
-pub struct Packet {
-    vertices: [[Array; 3]; 3],
-    triangles: [u32; 8],
+/// The memory of a packet: row 3·i + k is coordinate k of the triangles' vertices i, and the last
+/// row is the bits of their indices. Lanes without a triangle hold NaN, which no test passes.
+pub type Rows = [Array; 10];
+
+const IDS: usize = 9;
+
+/// Eight lanes without a triangle.
+pub const EMPTY: Rows = [[f32::NAN; 8]; 10];
+
+/// Fills a lane.
+pub fn set(rows: &mut Rows, lane: usize, triangle: u32, corners: [Vec3; 3]) {
+    for (i, corner) in corners.iter().enumerate() {
+        for k in 0..3 {
+            rows[3 * i + k][lane] = corner[k];
+        }
+    }
+    rows[IDS][lane] = f32::from_bits(triangle);
 }
+
+/// Eight triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Packet<'a>(pub &'a Rows);
 
 /// A hit on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,11 +76,13 @@ impl<L: Lanes> Shear<L> {
 
     /// One vertex of each triangle in the sheared space; its z is not scaled yet.
     #[inline(always)]
-    fn project(&self, l: L, rows: &[Array; 3]) -> [L::F; 3] {
+    fn project(&self, l: L, rows: &Rows, vertex: usize) -> [L::F; 3] {
         let [kx, ky, kz] = self.axes;
-        let z = l.sub(l.load(&rows[kz]), self.origin[2]);
-        let x = l.sub(l.sub(l.load(&rows[kx]), self.origin[0]), l.mul(self.shear[0], z));
-        let y = l.sub(l.sub(l.load(&rows[ky]), self.origin[1]), l.mul(self.shear[1], z));
+        // The masks change nothing; they show that the rows are in range.
+        let row = 3 * vertex;
+        let z = l.sub(l.load(&rows[row + (kz & 3)]), self.origin[2]);
+        let x = l.sub(l.sub(l.load(&rows[row + (kx & 3)]), self.origin[0]), l.mul(self.shear[0], z));
+        let y = l.sub(l.sub(l.load(&rows[row + (ky & 3)]), self.origin[1]), l.mul(self.shear[1], z));
         [x, y, z]
     }
 }
@@ -77,30 +93,25 @@ fn edge<L: Lanes>(l: L, p: &[L::F; 3], q: &[L::F; 3]) -> L::F {
     l.sub(l.mul(p[0], q[1]), l.mul(p[1], q[0]))
 }
 
-impl Packet {
-    pub const EMPTY: Packet = Packet { vertices: [[[f32::NAN; 8]; 3]; 3], triangles: [u32::MAX; 8] };
-
-    pub fn set(&mut self, lane: usize, triangle: u32, corners: [Vec3; 3]) {
-        for (rows, corner) in self.vertices.iter_mut().zip(corners) {
-            for k in 0..3 {
-                rows[k][lane] = corner[k];
-            }
-        }
-        self.triangles[lane] = triangle;
+impl<'a> Packet<'a> {
+    #[inline(always)]
+    fn triangle(self, lane: usize) -> u32 {
+        self.0[IDS][lane].to_bits()
     }
 
     /// The triangles that are there: index and corners.
-    pub fn filled(&self) -> impl Iterator<Item = (u32, [Vec3; 3])> + '_ {
-        let corner = |lane: usize, i: usize| Vec3::from_array(self.vertices[i].map(|row| row[lane]));
+    pub fn filled(self) -> impl Iterator<Item = (u32, [Vec3; 3])> + 'a {
+        let corner =
+            move |lane: usize, i: usize| Vec3::from_array([0, 1, 2].map(|k| self.0[3 * i + k][lane]));
         (0..8)
-            .map(move |lane| (self.triangles[lane], [0, 1, 2].map(|i| corner(lane, i))))
+            .map(move |lane| (self.triangle(lane), [0, 1, 2].map(|i| corner(lane, i))))
             .filter(|(_, v)| !v[0].x.is_nan())
     }
 
     /// Replaces `best` by the nearest hit with 0 < t < `best.t`, or t = `best.t` on a smaller
     /// triangle index. Returns whether there was one.
     #[inline(always)]
-    pub(super) fn nearest<L: Lanes>(&self, lanes: L, ray: &Shear<L>, best: &mut TriangleHit) -> bool {
+    pub(super) fn nearest<L: Lanes>(self, lanes: L, ray: &Shear<L>, best: &mut TriangleHit) -> bool {
         let Some(c) = self.candidates(lanes, ray) else { return false };
         let inverse = lanes.div(lanes.splat(1.0), c.det);
         let t = lanes.mul(lanes.mul(c.t_det, inverse), lanes.splat(ray.scale));
@@ -118,7 +129,7 @@ impl Packet {
                 let lane = mask.trailing_zeros() as usize & 7;
                 mask &= mask - 1;
                 let b = [b[0][lane], b[1][lane], b[2][lane]];
-                found |= closer(best, TriangleHit { t: t[lane], triangle: self.triangles[lane], b });
+                found |= closer(best, TriangleHit { t: t[lane], triangle: self.triangle(lane), b });
             }
         }
         if c.unsure != 0 {
@@ -129,7 +140,7 @@ impl Packet {
 
     /// Whether any triangle is hit with 0 < t < `t_max`.
     #[inline(always)]
-    pub(super) fn any<L: Lanes>(&self, lanes: L, ray: &Shear<L>, t_max: f32) -> bool {
+    pub(super) fn any<L: Lanes>(self, lanes: L, ray: &Shear<L>, t_max: f32) -> bool {
         let Some(c) = self.candidates(lanes, ray) else { return false };
         let inverse = lanes.div(lanes.splat(1.0), c.det);
         let t = lanes.mul(lanes.mul(c.t_det, inverse), lanes.splat(ray.scale));
@@ -140,9 +151,8 @@ impl Packet {
 
     /// The triangles around the ray, `None` if there are none.
     #[inline(always)]
-    fn candidates<L: Lanes>(&self, l: L, ray: &Shear<L>) -> Option<Candidates<L>> {
-        let [pa, pb, pc] = &self.vertices;
-        let (a, b, c) = (ray.project(l, pa), ray.project(l, pb), ray.project(l, pc));
+    fn candidates<L: Lanes>(self, l: L, ray: &Shear<L>) -> Option<Candidates<L>> {
+        let (a, b, c) = (ray.project(l, self.0, 0), ray.project(l, self.0, 1), ray.project(l, self.0, 2));
         let (u, v, w) = (edge(l, &c, &b), edge(l, &a, &c), edge(l, &b, &a));
         let zero = l.splat(0.0);
         let (least, most) = (l.min(l.min(u, v), w), l.max(l.max(u, v), w));
@@ -165,7 +175,7 @@ impl Packet {
 
     #[cold]
     #[inline(never)]
-    fn nearest_exact<L: Lanes>(&self, mask: u32, ray: &Shear<L>, best: &mut TriangleHit) -> bool {
+    fn nearest_exact<L: Lanes>(self, mask: u32, ray: &Shear<L>, best: &mut TriangleHit) -> bool {
         let mut found = false;
         for lane in (0..8).filter(|lane| mask >> lane & 1 == 1) {
             if let Some(hit) = self.exact(lane, ray) {
@@ -177,10 +187,10 @@ impl Packet {
 
     /// The test of one triangle, from the same projected vertices, in double precision: products
     /// of two singles are exact, so signs are, and each edge function has one rounding.
-    fn exact<L: Lanes>(&self, lane: usize, ray: &Shear<L>) -> Option<TriangleHit> {
+    fn exact<L: Lanes>(self, lane: usize, ray: &Shear<L>) -> Option<TriangleHit> {
         let [kx, ky, kz] = ray.axes;
         let [a, b, c] = [0, 1, 2].map(|i| {
-            let v = [kx, ky, kz].map(|k| self.vertices[i][k][lane]);
+            let v = [kx, ky, kz].map(|k| self.0[3 * i + k][lane]);
             let z = v[2] - ray.origin1[2];
             let x = (v[0] - ray.origin1[0]) - ray.shear1[0] * z;
             let y = (v[1] - ray.origin1[1]) - ray.shear1[1] * z;
@@ -196,7 +206,7 @@ impl Packet {
         let t = (u * a[2] + v * b[2] + w * c[2]) / det * f64::from(ray.scale);
         let hit = TriangleHit {
             t: t as f32,
-            triangle: self.triangles[lane],
+            triangle: self.triangle(lane),
             b: [u / det, v / det, w / det].map(|b| b as f32),
         };
         (hit.t > 0.0).then_some(hit)

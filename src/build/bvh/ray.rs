@@ -99,7 +99,7 @@ impl<L: Lanes> Slabs<L> {
     ///
     /// 0·∞ = NaN arises for a ray in the plane of a face; `min` and `max` then ignore that slab.
     #[inline(always)]
-    pub fn enter(&self, lanes: L, node: &Node, limit: L::F) -> (L::F, u32) {
+    pub fn enter(&self, lanes: L, node: Node, limit: L::F) -> (L::F, u32) {
         let (near, far) = (self.near(lanes, node), self.far(lanes, node));
         let entry = lanes.max(lanes.max(near[0], near[1]), lanes.max(near[2], self.zero));
         let exit = lanes.min(lanes.min(far[0], far[1]), lanes.min(far[2], limit));
@@ -107,7 +107,7 @@ impl<L: Lanes> Slabs<L> {
     }
 
     #[inline(always)]
-    fn near(&self, l: L, node: &Node) -> [L::F; 3] {
+    fn near(&self, l: L, node: Node) -> [L::F; 3] {
         let ([x, y, z], o, inv) = (self.near_row, &self.near_origin, &self.near_inv);
         [
             l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),
@@ -117,7 +117,7 @@ impl<L: Lanes> Slabs<L> {
     }
 
     #[inline(always)]
-    fn far(&self, l: L, node: &Node) -> [L::F; 3] {
+    fn far(&self, l: L, node: Node) -> [L::F; 3] {
         let ([x, y, z], o, inv) = (self.far_row, &self.far_origin, &self.far_inv);
         [
             l.mul(l.sub(l.load(node.row(x)), o[0]), inv[0]),

@@ -4,7 +4,7 @@
 //! finished with a stack on the heap, so no depth can fail.
 
 use super::lanes::Lanes;
-use super::node::{Child, Node};
+use super::node::{Child, Node, Rows};
 use super::ray::Slabs;
 
 const STACK: usize = 48;
@@ -26,7 +26,7 @@ fn entry_of(key: u64) -> f32 {
 #[inline(always)]
 pub(super) fn walk<L: Lanes, const ORDERED: bool>(
     lanes: L,
-    nodes: &[Node],
+    nodes: &[Rows],
     slabs: &Slabs<L>,
     mut t_max: f32,
     mut leaf: impl FnMut(u32, f32) -> f32,
@@ -41,7 +41,7 @@ pub(super) fn walk<L: Lanes, const ORDERED: bool>(
     loop {
         match Child::from_bits(current) {
             Child::Node(n) => {
-                let node = &nodes[n as usize];
+                let node = Node(&nodes[n as usize]);
                 let (entries, mut mask) = slabs.enter(lanes, node, lanes.splat(limit));
                 if mask != 0 {
                     let first = mask.trailing_zeros() as usize & 7;
@@ -113,7 +113,7 @@ pub(super) fn walk<L: Lanes, const ORDERED: bool>(
 #[inline(never)]
 fn walk_on_heap<L: Lanes>(
     lanes: L,
-    nodes: &[Node],
+    nodes: &[Rows],
     slabs: &Slabs<L>,
     mut t_max: f32,
     leaf: &mut impl FnMut(u32, f32) -> f32,
@@ -134,7 +134,7 @@ fn walk_on_heap<L: Lanes>(
                 }
             }
             Child::Node(n) => {
-                let node = &nodes[n as usize];
+                let node = Node(&nodes[n as usize]);
                 let (entries, mask) = slabs.enter(lanes, node, lanes.splat(limit));
                 let (entries, base) = (lanes.store(entries), stack.len());
                 let entered = (0..8).filter(|lane| mask >> lane & 1 == 1);

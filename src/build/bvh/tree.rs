@@ -4,7 +4,7 @@
 use super::binned::{self, Item};
 use super::collapse::collapse;
 use super::lanes::{Lanes, Machine, Work};
-use super::node::{Child, MAX_COUNT, Node};
+use super::node::{self, Child, MAX_COUNT, Node, Rows};
 use super::ray::{BoxRay, Slabs};
 use super::traverse::walk;
 use crate::math::Aabb;
@@ -12,7 +12,7 @@ use crate::math::Aabb;
 /// A tree over boxes: the top level of a scene.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    nodes: Vec<Node>,
+    nodes: Vec<Rows>,
     bounds: Aabb,
     machine: Machine,
 }
@@ -67,7 +67,7 @@ impl Bvh {
 
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>()
+        self.nodes.capacity() * size_of::<Rows>()
     }
 
     #[cfg(test)]
@@ -77,19 +77,17 @@ impl Bvh {
     }
 }
 
-fn nodes(items: &mut [Item]) -> Vec<Node> {
+fn nodes(items: &mut [Item]) -> Vec<Rows> {
     if items.is_empty() {
         return Vec::new();
     }
     let tree = binned::build(items, 1);
     let mut wide = collapse(&tree);
-    for node in &mut wide.nodes {
-        for lane in 0..8 {
-            if let (false, Child::Leaf(n)) =
-                (node.bounds(lane).is_empty(), Child::from_bits(node.child(lane)))
-            {
+    for rows in &mut wide.nodes {
+        for (lane, _, child) in Node(&rows.clone()).filled() {
+            if let Child::Leaf(n) = child {
                 let item = &items[wide.leaves[n as usize].first as usize];
-                node.set_child(lane, Child::Leaf(item.index()));
+                node::set_child(rows, lane, Child::Leaf(item.index()));
             }
         }
     }
@@ -100,19 +98,18 @@ fn nodes(items: &mut [Item]) -> Vec<Node> {
 /// Walks the whole tree; `leaf(number, box)` checks a leaf. Every node must be reached once, and
 /// the boxes in it must lie in the box that its parent has for it.
 pub(super) fn check(
-    nodes: &[Node],
+    nodes: &[Rows],
     leaf: &mut impl FnMut(u32, Aabb) -> Result<(), &'static str>,
 ) -> Result<(), String> {
     let mut reached = 0;
-    let everything = nodes.first().map(|n| n.filled().fold(Aabb::EMPTY, |all, (b, _)| all.union(b)));
-    let mut stack: Vec<(u32, Aabb)> = everything.map(|b| (0, b)).into_iter().collect();
+    let mut stack = vec![(0, node::root_bounds(nodes)); nodes.len().min(1)];
     while let Some((n, outer)) = stack.pop() {
         reached += 1;
         if reached > nodes.len() {
             return Err("a node is reached twice".into());
         }
         let node = nodes.get(n as usize).ok_or("a child names no node")?;
-        for (bounds, child) in node.filled() {
+        for (_, bounds, child) in Node(node).filled() {
             if bounds.union(outer) != outer {
                 return Err(format!("node {n} has a box outside of its own"));
             }

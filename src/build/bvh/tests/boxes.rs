@@ -153,7 +153,7 @@ fn nothing_empty_boxes_and_a_hundred_thousand_copies_build() {
     assert_eq!(visited(&tree, &r, 1e9), (0..100_000).collect::<Vec<_>>());
 }
 
-/// Boxes in a row, each a tenth of the last: splits peel them off one at a time, which is as deep
+/// Boxes in one another, each a little smaller than the last: splits peel them off one at a time, which is as deep
 /// as a tree gets, and walks there outgrow the fixed stack.
 #[test]
 fn the_deepest_trees_are_walked_to_the_end() {

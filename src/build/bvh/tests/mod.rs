@@ -5,7 +5,7 @@ mod triangles;
 mod watertight;
 
 use super::lanes::Portable;
-use super::packet::{Packet, Shear, TriangleHit};
+use super::packet::{self, Packet, Shear, TriangleHit};
 use super::ray::BoxRay;
 use crate::math::{Aabb, Vec3};
 
@@ -49,9 +49,9 @@ pub fn brute_force(
     let mut best = TriangleHit { t: t_max, triangle: 0, b: [0.0; 3] };
     let mut found = false;
     for (i, t) in triangles.iter().enumerate() {
-        let mut packet = Packet::EMPTY;
-        packet.set(0, i as u32, t.map(|v| vertices[v as usize]));
-        found |= packet.nearest(Portable, &shear, &mut best);
+        let mut rows = packet::EMPTY;
+        packet::set(&mut rows, 0, i as u32, t.map(|v| vertices[v as usize]));
+        found |= Packet(&rows).nearest(Portable, &shear, &mut best);
     }
     found.then_some(best)
 }

@@ -126,10 +126,12 @@ fn rays_that_are_no_rays_hit_nothing() {
 
 #[test]
 fn any_number_of_threads_builds_the_same_tree() {
-    let (vertices, triangles) = soup(&mut Rng(4), 60_000, Vec3::ZERO, 1.0, 0.02);
+    let (vertices, triangles) = soup(&mut Rng(4), 120_000, Vec3::ZERO, 1.0, 0.02);
     let build = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| TriangleBvh::build(&vertices, &triangles)).fingerprint()
+        let tree = pool.install(|| TriangleBvh::build(&vertices, &triangles));
+        tree.validate(&vertices, &triangles).unwrap();
+        tree.fingerprint()
     };
     let one = build(1);
     assert_eq!(one, build(2));
