@@ -172,7 +172,7 @@ fn horizon_of_a_huge_sphere_is_where_it_belongs_and_things_rest_on_it() {
         let down = Ray { origin: DVec3::new(x, 1e-9, 0.0), dir: DVec3::NEG_Y };
         let at = ground.surface(&down, ground.nearest(&down, 0.0, f64::INFINITY).expect("ground"));
         let ray = Ray::leaving(at.p, at.p_error, at.ng, DVec3::Y);
-        assert!(at.p_error < 1e-8);
+        assert!(at.p_error < 2e-8);
         assert!(ground.nearest(&ray, 0.0, f64::INFINITY).is_none());
         assert!(ball.nearest(&ray, 0.0, f64::INFINITY).is_some(), "contact shadow at {x}");
     }
