@@ -49,10 +49,21 @@ fn crossings(shape: &Shape, ray: &Ray) -> Vec<f64> {
 
 #[test]
 fn lines_cross_closed_shapes_an_even_number_of_times() {
+    even_crossings(4_000);
+}
+
+/// As above with 1.2e6 lines for each kind of shape and each size.
+#[test]
+#[ignore = "half a minute"]
+fn a_million_lines_cross_each_closed_shape_an_even_number_of_times() {
+    even_crossings(1_200_000);
+}
+
+fn even_crossings(lines: u32) {
     for size in [1e-4, 1.0, 1e4] {
         for shape in solids(size) {
             let mut counter = Counter::new(51, Stage::Test, 0);
-            for i in 0..10_000 {
+            for i in 0..lines {
                 let ray = if i % 4 == 0 {
                     // Through a rim, an edge or a corner, as nearly as can be said.
                     let corner =

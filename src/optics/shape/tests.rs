@@ -166,7 +166,7 @@ fn direction_densities_integrate_to_one() {
             let mut sum = 0.0;
             let (mut n, mut seen) = (0u32, 0u32);
             // Until the figure is seen often enough to expect eight percent at the worst.
-            while seen < 4000 && n < 1 << 17 {
+            while seen < 4000 && n < 1 << 16 {
                 let pdf =
                     shape.direction_pdf(from, sampling::sphere(Sequence::new(34, Stage::Test, 7, n).pair()));
                 sum += pdf;
