@@ -86,7 +86,7 @@ fn points_sampled_by_area_are_on_the_surface_and_uniform() {
     }
 }
 
-/// For 1, 1e-4 and 1e4 of each shape's size the rays from points sampled on it are found.
+/// Steps along ∂p/∂u and ∂p/∂v, brought back to the surface by a ray, against the coordinates found there.
 #[test]
 fn surface_coordinates_have_the_derivatives_that_are_reported() {
     for (name, shape, _) in shapes() {
