@@ -106,3 +106,6 @@ pub fn sphere_roots(from_center: DVec3, dir: DVec3, radius: f64) -> Option<[f64;
     let roots = if t <= s { [t, s] } else { [s, t] };
     (roots[0] < roots[1]).then_some(roots)
 }
+
+#[cfg(test)]
+mod tests;

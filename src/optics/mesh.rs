@@ -158,11 +158,21 @@ impl TriangleMesh {
     }
 }
 
+/// Aspect up to which the bound below grows. Longer triangles would be left by offsets as large as they
+/// are high; what is met again beyond is rarer than one grazing ray in 1e5.
+const LONGEST: f64 = 64.0;
+
 /// How far off its plane a triangle may be met by a single-precision test that moves the vertices to
 /// the ray's origin, itself rounded to single precision, and shears them along the ray (Woop, Benthin,
 /// Wald, JCGT 2(1), 2013): the origin's rounding, and those of the moved vertices, the edge functions
-/// and their sum, all relative to the vertices' distance from the point.
+/// and their sum, all relative to the vertices' distance from the point, and the more so the longer the
+/// triangle is for its height.
 fn traversal_error(corners: &[DVec3; 3], p: DVec3) -> f64 {
     let extent = corners.iter().map(|v| v.distance(p)).fold(0.0, f64::max);
-    gamma_f32(2) * p.length() + gamma_f32(16) * extent
+    let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+    let aspect = (extent * extent / area).clamp(1.0, LONGEST);
+    gamma_f32(2) * p.length() + gamma_f32(8) * extent * aspect
 }
+
+#[cfg(test)]
+mod tests;

@@ -65,14 +65,14 @@ impl Cdf {
 /// Choice in constant time, for many entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AliasTable {
-    columns: Vec<Column>,
+    pub(super) columns: Vec<Column>,
 }
 
 /// 1/n of the probability, shared by its own entry (up to `own`) and another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Column {
-    own: f64,
-    alias: u32,
+pub(super) struct Column {
+    pub(super) own: f64,
+    pub(super) alias: u32,
     pmf: f64,
 }
 

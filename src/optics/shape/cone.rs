@@ -103,7 +103,8 @@ impl Cone {
         let along = (rim - self.radius) * widening + p.y * self.height;
         let v = (along / (self.height * self.height + widening * widening)).clamp(0.0, 1.0);
         let r = self.radius + v * widening;
-        let singular = rim == 0.0 || r == 0.0;
+        // So close to the axis the derivative along u is too short to be given a direction.
+        let singular = rim == 0.0 || r <= 1e-30 * self.radius.max(self.top_radius);
         let ng = self.side_normal(around);
         LocalSurface {
             p: DVec3::new(around.x * r, v * self.height, around.y * r),

@@ -76,19 +76,16 @@ impl Polyhedron {
         (0..self.faces.len() as u32).all(|face| !self.in_front(face, p))
     }
 
-    /// A triangle of a face that `from` is in front of.
-    fn seen(&self, triangle: usize, from: DVec3) -> Option<Triangle> {
-        let (corners, face) = self.triangles[triangle];
-        if self.in_front(face, from) { Triangle::new(from, corners) } else { None }
-    }
-
-    /// The solid angles of the triangles, 0 for those that face away.
-    fn solid_angles(&self, from: DVec3) -> ([f64; MOST_TRIANGLES], f64) {
-        let mut weights = [0.0; MOST_TRIANGLES];
-        for (i, w) in weights.iter_mut().enumerate().take(self.triangles.len()) {
-            *w = self.seen(i, from).map_or(0.0, |t| t.solid_angle());
+    /// The triangles that `from` is in front of, with their solid angles (0 for the rest).
+    fn visible(&self, from: DVec3) -> ([Option<Triangle>; MOST_TRIANGLES], [f64; MOST_TRIANGLES]) {
+        let mut seen = [None; MOST_TRIANGLES];
+        for (slot, (corners, face)) in seen.iter_mut().zip(&self.triangles) {
+            if self.in_front(*face, from) {
+                *slot = Triangle::new(from, *corners);
+            }
         }
-        (weights, weights.iter().sum())
+        let weights = seen.map(|triangle| triangle.map_or(0.0, |t| t.solid_angle()));
+        (seen, weights)
     }
 }
 
@@ -248,9 +245,9 @@ impl Surface for Polyhedron {
         if self.inside(from) {
             return Some(DirectionSample { dir: sampling::sphere(u), pdf: sampling::SPHERE_PDF });
         }
-        let (weights, _) = self.solid_angles(from);
+        let (seen, weights) = self.visible(from);
         let choice = sampling::pick(&weights, u[0])?;
-        let sample = self.seen(choice.index, from)?.sample([choice.u, u[1]])?;
+        let sample = seen[choice.index]?.sample([choice.u, u[1]])?;
         Some(DirectionSample { pdf: sample.pdf * choice.pmf, ..sample })
     }
 
@@ -258,8 +255,11 @@ impl Surface for Polyhedron {
         if self.inside(from) {
             return sampling::SPHERE_PDF;
         }
-        let (weights, total) = self.solid_angles(from);
-        let pdf = |i: usize| self.seen(i, from).map_or(0.0, |t| t.pdf(dir) * weights[i] / total);
-        (0..self.triangles.len()).map(pdf).sum()
+        let (seen, weights) = self.visible(from);
+        let sum: f64 = seen.iter().zip(weights).map(|(t, w)| t.map_or(0.0, |t| t.pdf(dir) * w)).sum();
+        if sum > 0.0 { sum / weights.iter().sum::<f64>() } else { 0.0 }
     }
 }
+
+#[cfg(test)]
+mod tests;

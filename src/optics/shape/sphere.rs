@@ -51,7 +51,8 @@ impl Surface for Sphere {
         let n = (ray.at(hit.t) - self.center).try_normalize().unwrap_or(DVec3::Y);
         let (min, max) = self.bounds();
         let rim = libm::hypot(n.x, n.z);
-        let (dpdu, dpdv) = if rim > 0.0 {
+        // Any closer to a pole, the derivative along u is too short to be given a direction.
+        let (dpdu, dpdv) = if rim > 1e-30 {
             let dpdv = DVec3::new(-n.y * (n.x / rim), rim, -n.y * (n.z / rim)) * (PI * self.radius);
             (DVec3::new(n.z, 0.0, -n.x) * (TAU * self.radius), dpdv)
         } else {
