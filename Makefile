@@ -4,6 +4,7 @@ SCENES ?= scenes
 OUT    ?= renders
 CARGO  ?= cargo
 FLAGS  ?=
+SELF   := $(firstword $(MAKEFILE_LIST))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -19,7 +20,7 @@ endif
 
 ## all: build, and render scenes/terrarium.ron to renders/terrarium.png and .exr
 all: build
-	+@$(MAKE) --no-print-directory SCENES=scenes OUT='$(OUT)' '$(OUT)/terrarium.exr' '$(OUT)/terrarium.png'
+	+@$(MAKE) -f '$(SELF)' --no-print-directory SCENES=scenes OUT='$(OUT)' '$(OUT)/terrarium.exr' '$(OUT)/terrarium.png'
 
 ## build: build the program
 build: $(TERRARIUM)
@@ -27,7 +28,7 @@ build: $(TERRARIUM)
 ## renders: render every scene of SCENES (default: scenes) to OUT (default: renders), only what changed
 renders: build names
 	@rm -rf '$(OUT)/.failed'
-	+@$(MAKE) --no-print-directory -k images || { \
+	+@$(MAKE) -f '$(SELF)' --no-print-directory -k images || { \
 	    echo >&2; \
 	    for scene in '$(OUT)'/.failed/*; do \
 	        if [ -e "$$scene" ]; then echo "failed: $(SCENES)/$${scene##*/}" >&2; fi; \
@@ -117,6 +118,6 @@ clean:
 
 ## help: this list
 help:
-	@sed -n 's/^## //p' $(firstword $(MAKEFILE_LIST))
+	@sed -n 's/^## //p' '$(SELF)'
 	@echo
 	@echo "variables: SCENES=folder OUT=folder FLAGS='--passes 16' TERRARIUM=program; -j 2 for two scenes at once"
