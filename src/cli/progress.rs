@@ -12,7 +12,7 @@ use terrarium::render::Progress;
 
 /// Plain lines come after this time at the latest.
 const LONGEST_SILENCE: Duration = Duration::from_secs(30);
-/// JSON lines come no more often than this.
+/// The bar is drawn, and JSON lines come, no more often than this.
 const SHORTEST_SILENCE: Duration = Duration::from_millis(100);
 
 /// The progress of one render.
@@ -98,6 +98,7 @@ impl Progress for Reporter {
             let style = ProgressStyle::with_template("{prefix:10} {bar:30} {msg}");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar.set_prefix(stage.to_string());
+            bar.tick();
             bar
         });
         let now = Instant::now();
@@ -120,13 +121,16 @@ impl Progress for Reporter {
         let mut guard = self.stage();
         let Some(stage) = guard.as_mut() else { return };
         stage.done = stage.done.saturating_add(done);
+        let silence = stage.told.0.elapsed();
         if let Some(bar) = &stage.bar {
-            let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
-            bar.set_message(format!("{:2} %, {}{left}", (100.0 * stage.share()) as u32, stage.rate()));
-            bar.set_position(stage.done.min(stage.total.saturating_sub(1)));
+            if silence >= SHORTEST_SILENCE {
+                let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
+                bar.set_message(format!("{:2} %, {}{left}", (100.0 * stage.share()) as u32, stage.rate()));
+                bar.set_position(stage.done.min(stage.total.saturating_sub(1)));
+                stage.told.0 = Instant::now();
+            }
             return;
         }
-        let silence = stage.told.0.elapsed();
         let news = stage.share() - stage.told.1;
         // short stages pass without a line
         let due = match self.form {

@@ -1,0 +1,123 @@
+# What can be done here: `make help`. Needs a Rust toolchain and make.
+
+SCENES ?= scenes
+OUT    ?= renders
+CARGO  ?= cargo
+FLAGS  ?=
+SELF   := $(firstword $(MAKEFILE_LIST))
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.PHONY: all build renders images names test lint bench assets schema install clean help FORCE
+
+# The program: built here, unless another one is named.
+ifeq ($(origin TERRARIUM),undefined)
+TERRARIUM := $(or $(CARGO_TARGET_DIR),target)/release/terrarium
+$(TERRARIUM): FORCE
+	@$(CARGO) build --release --locked
+endif
+
+## all: build, and render scenes/terrarium.ron to renders/terrarium.png and .exr
+all: build
+	+@$(MAKE) -f '$(SELF)' --no-print-directory SCENES=scenes OUT='$(OUT)' '$(OUT)/terrarium.exr' '$(OUT)/terrarium.png'
+
+## build: build the program
+build: $(TERRARIUM)
+
+## renders: render every scene of SCENES (default: scenes) to OUT (default: renders), only what changed
+renders: build names
+	@rm -rf '$(OUT)/.failed'
+	+@$(MAKE) -f '$(SELF)' --no-print-directory -k images || { \
+	    echo >&2; \
+	    for scene in '$(OUT)'/.failed/*; do \
+	        if [ -e "$$scene" ]; then echo "failed: $(SCENES)/$${scene##*/}" >&2; fi; \
+	    done; \
+	    exit 1; }
+
+# Scenes are the .ron and .toml files of the folder itself; subfolders hold what scenes include.
+FOUND  := $(sort $(wildcard $(SCENES)/*.ron $(SCENES)/*.toml))
+STEMS  := $(sort $(basename $(notdir $(FOUND))))
+IMAGES := $(foreach stem,$(STEMS),$(OUT)/$(stem).exr $(OUT)/$(stem).png)
+
+images: $(IMAGES)
+
+# Refuses what make can't handle: names with special characters, and two scenes for one image.
+names:
+	@case '$(SCENES)$(OUT)' in *[!A-Za-z0-9._/+@,=-]*) \
+	    echo "make: SCENES and OUT may hold letters, digits and . _ - + @ , = only: rename the folder" >&2; \
+	    exit 2;; esac
+	@[ -d '$(SCENES)' ] || { echo "make: there is no folder $(SCENES)" >&2; exit 2; }
+	@twins=; for scene in '$(SCENES)'/*.ron '$(SCENES)'/*.toml; do \
+	    [ -e "$$scene" ] || continue; \
+	    case "$${scene##*/}" in *[!A-Za-z0-9._+@,=-]*) \
+	        echo "make: $$scene: a scene's name may hold letters, digits and . _ - + @ , = only: rename it" >&2; \
+	        exit 2;; esac; \
+	    case "$$scene" in *.ron) if [ -e "$${scene%.ron}.toml" ]; then twins="$$twins $$scene"; fi;; esac; \
+	done; \
+	for scene in $$twins; do \
+	    echo "make: $$scene and $${scene%.ron}.toml would be the same image: rename one" >&2; \
+	done; [ -z "$$twins" ] || exit 2
+
+# Several renders at once share the terminal: no bars then.
+PROGRESS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),--progress none)
+
+# Renders scene $< to both images. A failing scene is remembered by name.
+define render
+	@mkdir -p '$(OUT)/.deps' && rm -f '$(OUT)/.failed/$(notdir $<)'
+	@'$(TERRARIUM)' render '$<' -o '$(OUT)/$*.exr' -o '$(OUT)/$*.png' \
+	    --depfile '$(OUT)/.deps/$*.d' $(PROGRESS) $(FLAGS) \
+	|| { code=$$?; mkdir -p '$(OUT)/.failed' && : > '$(OUT)/.failed/$(notdir $<)'; exit $$code; }
+endef
+
+$(OUT)/%.exr: $(SCENES)/%.ron $(TERRARIUM)
+	$(render)
+
+$(OUT)/%.exr: $(SCENES)/%.toml $(TERRARIUM)
+	$(render)
+
+# The PNG comes with the EXR; alone only if it was deleted alone.
+$(OUT)/%.png: $(OUT)/%.exr
+	@if [ ! -e '$@' ] || [ '$@' -ot '$<' ]; then \
+	    '$(TERRARIUM)' render '$(firstword $(wildcard $(SCENES)/$*.ron $(SCENES)/$*.toml))' -o '$@' \
+	        $(PROGRESS) $(FLAGS); fi
+
+# Which meshes, textures and included files each image depends on.
+-include $(wildcard $(OUT)/.deps/*.d)
+
+## test: build and run every test
+test:
+	$(CARGO) test --release --locked
+
+## lint: formatting and clippy, without a warning
+lint:
+	$(CARGO) fmt --check
+	$(CARGO) clippy --release --locked --all-targets -- -D warnings
+
+## bench: time the kernels and compare with other renderers, where they are installed
+bench:
+	$(CARGO) bench --locked
+	@if [ -x benches/run ]; then benches/run; fi
+
+## assets: make the meshes and textures that programs write
+assets: build
+	@if [ -x assets/make ]; then assets/make; else echo "nothing to make"; fi
+
+## schema: write terrarium.schema.json, for completion in editors
+schema: build
+	@'$(TERRARIUM)' schema > terrarium.schema.json.tmp && mv terrarium.schema.json.tmp terrarium.schema.json
+
+## install: install the program with cargo
+install:
+	$(CARGO) install --path . --locked
+
+## clean: remove what was rendered and built
+clean:
+	@rm -rf '$(OUT)'/*.exr '$(OUT)'/*.png '$(OUT)'/.*.tmp-* '$(OUT)/.deps' '$(OUT)/.failed'
+	$(CARGO) clean
+
+## help: this list
+help:
+	@sed -n 's/^## //p' '$(SELF)'
+	@echo
+	@echo "variables: SCENES=folder OUT=folder FLAGS='--passes 16' TERRARIUM=program; -j 2 for two scenes at once"
