@@ -33,11 +33,12 @@ const BATCH: u32 = 8;
 
 /// Renders a checked scene.
 pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = options.threads {
-        pool = pool.num_threads(threads);
-    }
-    let pool = pool.build().map_err(|e| RenderError::Failed(format!("no threads could be started: {e}")))?;
+    // A caller that has set up rayon's own threads renders on them.
+    let Some(threads) = options.threads else { return stages(loaded, options, progress) };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|e| RenderError::Failed(format!("no threads could be started: {e}")))?;
     pool.install(|| stages(loaded, options, progress))
 }
 
@@ -116,11 +117,13 @@ fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
             event.allowed()
         ));
     }
-    let cut = health.of(Rare::DepthLimit);
-    if cut > 0 {
+    let cut = &tally.cut;
+    if cut.paths > 0 {
         warnings.push(format!(
-            "{cut} paths were cut after {} specular events in a row (render.max_depth)",
-            plan.max_depth
+            "{} paths were cut after {} specular events in a row (render.max_depth), {:.2e} of all weight",
+            cut.paths,
+            plan.max_depth,
+            cut.weight / health.samples as f64
         ));
     }
     warnings

@@ -13,20 +13,16 @@ pub enum Rare {
     MediaOverflow,
     /// A shading normal that sent a mirrored or refracted direction through the surface.
     DirectionThroughSurface,
-    /// A path cut by the depth limit.
-    DepthLimit,
 }
 
 impl Rare {
-    pub const ALL: [Rare; 4] =
-        [Rare::NonFiniteSample, Rare::MediaOverflow, Rare::DirectionThroughSurface, Rare::DepthLimit];
+    pub const ALL: [Rare; 3] = [Rare::NonFiniteSample, Rare::MediaOverflow, Rare::DirectionThroughSurface];
 
     /// The share of trials up to which the event is healthy.
     pub fn allowed(self) -> f64 {
         match self {
             Rare::NonFiniteSample | Rare::MediaOverflow => 0.0,
             Rare::DirectionThroughSurface => 0.02,
-            Rare::DepthLimit => 0.05,
         }
     }
 
@@ -35,7 +31,6 @@ impl Rare {
             Rare::NonFiniteSample => "non-finite samples",
             Rare::MediaOverflow => "media overflows",
             Rare::DirectionThroughSurface => "directions through the surface",
-            Rare::DepthLimit => "paths cut by the depth limit",
         }
     }
 }

@@ -30,7 +30,8 @@ impl Placement {
         let m = world_from_object.matrix3;
         let det = m.determinant();
         let norm = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).length();
-        if !world_from_object.is_finite() || !(det.abs() >= 1e-30 * norm * norm * norm) || norm == 0.0 {
+        let flat = det.abs() < 1e-30 * norm * norm * norm || norm == 0.0;
+        if !world_from_object.is_finite() || !det.is_finite() || flat {
             return None;
         }
         let cofactors =

@@ -54,7 +54,7 @@ pub(super) fn provenance(loaded: &Loaded, plan: &Plan, world: &World, tally: &Ta
     });
     let stats = &mut provenance.stats;
     stats.insert("samples".to_owned(), film.samples().into());
-    stats.insert("cutPaths".to_owned(), tally.health.of(Rare::DepthLimit).into());
+    stats.insert("cutPaths".to_owned(), tally.cut.paths.into());
     stats.insert("nonFiniteSamples".to_owned(), tally.health.of(Rare::NonFiniteSample).into());
     provenance
 }

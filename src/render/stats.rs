@@ -17,6 +17,8 @@ pub struct Stats {
     pub rays: Rays,
     /// Paths cut by the depth limit.
     pub truncated_paths: u64,
+    /// The weight of those paths as a share of all camera samples.
+    pub truncated_weight: f64,
     pub rare_events: Vec<RareEvent>,
     pub memory: Memory,
     pub scene: SceneSize,
@@ -76,7 +78,8 @@ impl Stats {
             passes: plan.passes,
             samples: health.samples,
             rays: tally.rays,
-            truncated_paths: health.of(Rare::DepthLimit),
+            truncated_paths: tally.cut.paths,
+            truncated_weight: tally.cut.weight / (health.samples.max(1) as f64),
             rare_events: rare_events.collect(),
             memory: Memory {
                 geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()

@@ -42,6 +42,16 @@ impl Rays {
 pub struct Tally {
     pub rays: Rays,
     pub health: Health,
+    pub cut: Cut,
+}
+
+/// Paths that the depth limit has cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cut {
+    pub paths: u64,
+    /// Sum of their weights; divided by the number of camera samples, the share of an image of
+    /// uniform radiance that is missing at most.
+    pub weight: f64,
 }
 
 impl Tally {
@@ -51,6 +61,8 @@ impl Tally {
         self.rays.reflection += other.rays.reflection;
         self.rays.refraction += other.rays.refraction;
         self.health.add(&other.health);
+        self.cut.paths += other.cut.paths;
+        self.cut.weight += other.cut.weight;
     }
 }
 

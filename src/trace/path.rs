@@ -255,7 +255,8 @@ impl Tracer<'_> {
             return;
         }
         if branch.depth > self.plan.max_depth {
-            tally.health.count(Rare::DepthLimit);
+            tally.cut.paths += 1;
+            tally.cut.weight += f64::from(heaviest);
             return;
         }
         let survival = f64::from(heaviest) / self.plan.split_weight;

@@ -11,8 +11,6 @@ pub struct Shading<'a> {
     pub wo: DVec3,
     pub ng: DVec3,
     pub ns: DVec3,
-    /// Whether `wo` is on the outside.
-    pub outside: bool,
     pub kd: Vec3,
     pub ks: Vec3,
     pub km: Vec3,
@@ -34,7 +32,6 @@ impl<'a> Shading<'a> {
             wo,
             ng: surface.ng * turn,
             ns: ns * turn,
-            outside,
             kd: at(&material.diffuse),
             ks: at(&material.specular),
             km: at(&material.reflection),
