@@ -4,8 +4,11 @@
 //! with km `reflection` and kt `transmission`.
 
 use super::{Rgb, Source};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::borrow::Cow;
+use std::fmt;
 
 /// What a surface is made of. The default is black.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -73,7 +76,7 @@ fn one() -> f64 {
 }
 
 /// An index of refraction, as a number or by name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Ior {
     Number(f64),
@@ -97,3 +100,47 @@ pub const NAMED_IOR: &[(&str, f64)] = &[
     ("zircon", 1.923),
     ("diamond", 2.417),
 ];
+
+impl<'de> Deserialize<'de> for Ior {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberOrName;
+        impl Visitor<'_> for NumberOrName {
+            type Value = Ior;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number or a name such as \"glass\"")
+            }
+
+            fn visit_f64<E: Error>(self, v: f64) -> Result<Ior, E> {
+                Ok(Ior::Number(v))
+            }
+
+            fn visit_i64<E: Error>(self, v: i64) -> Result<Ior, E> {
+                Ok(Ior::Number(v as f64))
+            }
+
+            fn visit_u64<E: Error>(self, v: u64) -> Result<Ior, E> {
+                Ok(Ior::Number(v as f64))
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<Ior, E> {
+                Ok(Ior::Name(name.to_owned()))
+            }
+        }
+        deserializer.deserialize_any(NumberOrName)
+    }
+}
+
+impl JsonSchema for Ior {
+    fn schema_name() -> Cow<'static, str> {
+        "Ior".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let names: Vec<&str> = NAMED_IOR.iter().map(|(name, _)| *name).collect();
+        schemars::json_schema!({ "anyOf": [
+            { "type": "number", "exclusiveMinimum": 0.05, "exclusiveMaximum": 10 },
+            { "type": "string", "enum": names }
+        ] })
+    }
+}

@@ -5,23 +5,36 @@
 //! Rec. 709; point and spot lights are given in W/sr, emitting surfaces in W·m⁻²·sr⁻¹ and
 //! directional light in W·m⁻².
 
+mod assets;
 mod camera;
+mod check;
+mod convert;
+mod diagnostic;
 mod light;
 mod material;
 mod names;
 mod object;
+mod read;
 mod scene;
+mod schema;
 mod settings;
+mod source;
+mod suggest;
 mod texture;
 mod transform;
+mod tree;
 mod value;
 
 pub use camera::Camera;
+pub use convert::{NotWritable, to_string};
+pub use diagnostic::{Diagnostic, Kind, Report, Severity};
 pub use light::{EnvironmentMap, Light};
 pub use material::{BumpMap, Ior, Material, NAMED_IOR, NormalMap};
 pub use names::NameMap;
 pub use object::{Object, Polyhedron, Scatter, Shape, Smooth};
+pub use read::{Format, Loaded, load, load_as_written, load_str, load_str_as_written};
 pub use scene::Scene;
+pub use schema::json_schema;
 pub use settings::{Antialiasing, Image, Render};
 pub use texture::{ColorSpace, Texture, UvMapping, Wrap};
 pub use transform::{Scale, Transform};

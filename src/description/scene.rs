@@ -12,6 +12,7 @@ pub struct Scene {
     /// relative to this file.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub include: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
     pub image: Image,
     pub antialiasing: Antialiasing,

@@ -1,0 +1,118 @@
+//! What the types cannot see: ranges, energy, references, files. Every violation of a scene is
+//! reported, with its path and its place.
+
+mod energy;
+mod files;
+mod lights;
+mod materials;
+mod objects;
+mod references;
+mod settings;
+mod usage;
+
+use super::Scene;
+use super::diagnostic::{Diagnostic, Kind, Severity};
+use super::source::Sources;
+use super::tree::{Node, Path, Span, number};
+use std::path::Path as FilePath;
+
+/// All that is wrong or doubtful with a scene whose tree is `root`; file paths in it are relative to
+/// `folder`. In an `incomplete` scene (an included file is missing) no names are looked up.
+pub(super) fn check(
+    scene: &Scene,
+    root: &Node,
+    sources: &Sources,
+    folder: &FilePath,
+    incomplete: bool,
+) -> Vec<Diagnostic> {
+    let mut checker = Checker { scene, root, sources, folder, diagnostics: Vec::new() };
+    settings::check(&mut checker);
+    materials::textures(&mut checker);
+    materials::check(&mut checker);
+    lights::check(&mut checker);
+    objects::check(&mut checker);
+    files::check(&mut checker);
+    if !incomplete {
+        references::check(&mut checker);
+        usage::check(&mut checker);
+    }
+    checker.diagnostics
+}
+
+struct Checker<'a> {
+    scene: &'a Scene,
+    root: &'a Node,
+    sources: &'a Sources,
+    folder: &'a FilePath,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Checker<'_> {
+    /// Reports at the first of the paths; silent if the value at any of them was reported before.
+    fn report(
+        &mut self,
+        severity: Severity,
+        kind: Kind,
+        paths: &[&Path],
+        message: String,
+        help: Option<String>,
+    ) {
+        if paths.iter().any(|path| self.root.find(path).hole) {
+            return;
+        }
+        let Some(path) = paths.first() else { return };
+        let mut diagnostic =
+            self.sources.diagnostic(severity, kind, self.root.find(path).node.span, message).with_help(help);
+        diagnostic.path = Some(path.to_string()).filter(|path| !path.is_empty());
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn error(&mut self, path: &Path, message: impl Into<String>) {
+        self.report(Severity::Error, Kind::Invalid, &[path], message.into(), None);
+    }
+
+    fn error_about(&mut self, paths: &[&Path], message: impl Into<String>) {
+        self.report(Severity::Error, Kind::Invalid, paths, message.into(), None);
+    }
+
+    fn warn(&mut self, path: &Path, message: impl Into<String>) {
+        self.report(Severity::Warning, Kind::Invalid, &[path], message.into(), None);
+    }
+
+    /// The place of the key of an entry, or of the entry.
+    fn key_span(&self, map: &str, name: &str) -> Option<Span> {
+        self.root.entry(map)?.node.entry(name).map(|entry| entry.key_span)
+    }
+
+    /// `low ≤ x ≤ high`.
+    fn within(&mut self, path: &Path, x: f64, low: f64, high: f64) {
+        if !(low..=high).contains(&x) {
+            self.error(path, format!("{} is outside [{}, {}]", number(x), number(low), number(high)));
+        }
+    }
+
+    fn positive(&mut self, path: &Path, x: f64) {
+        if x.is_nan() || x <= 0.0 {
+            self.error(path, format!("{} is not above 0", number(x)));
+        }
+    }
+
+    fn not_negative(&mut self, path: &Path, x: f64) {
+        if x.is_nan() || x < 0.0 {
+            self.error(path, format!("{} is below 0", number(x)));
+        }
+    }
+
+    /// Every channel at least 0.
+    fn colour(&mut self, path: &Path, rgb: &super::Rgb) {
+        if let Some(x) = rgb.0.iter().find(|x| **x < 0.0) {
+            self.error(path, format!("{} is below 0", number(*x)));
+        }
+    }
+
+    fn direction(&mut self, path: &Path, v: super::Vector) {
+        if v == [0.0; 3] {
+            self.error(path, "a direction cannot be (0, 0, 0)");
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Shapes, transforms, scatter; names of objects.
+
+use super::Checker;
+use crate::description::tree::{Path, Step, number};
+use crate::description::{Object, Scale, Scatter, Shape, Transform};
+use glam::{DMat3, DVec3};
+use std::collections::HashMap;
+
+/// The place of `objects`.
+pub(super) fn list() -> Path {
+    Path(vec![Step::Key("objects".into())])
+}
+
+pub(super) fn check(c: &mut Checker) {
+    for (name, object) in c.scene.definitions.iter() {
+        check_object(c, &Path::of("definitions").key(name), object);
+    }
+    let mut names = HashMap::new();
+    for (i, object) in c.scene.objects.iter().enumerate() {
+        let path = list().index(i);
+        check_object(c, &path, object);
+        unique_names(c, &path, object, &mut names);
+    }
+}
+
+fn unique_names<'a>(c: &mut Checker, path: &Path, object: &'a Object, names: &mut HashMap<&'a str, Path>) {
+    if let Some(name) = &object.name {
+        let here = path.key("name");
+        match names.get(name.as_str()) {
+            Some(first) => {
+                let place = c.sources.place(c.root.find(first).node.span);
+                let message = format!("the name `{name}` is given twice; the first is at {place}");
+                c.error_about(&[&here, &first.clone()], message);
+            }
+            None => drop(names.insert(name, here)),
+        }
+    }
+    if let Shape::Group { objects } = &object.shape {
+        let list = path.key("shape").key("group").key("objects");
+        for (i, object) in objects.iter().enumerate() {
+            unique_names(c, &list.index(i), object, names);
+        }
+    }
+}
+
+fn check_object(c: &mut Checker, path: &Path, object: &Object) {
+    if object.name.as_deref() == Some("") {
+        c.error(&path.key("name"), "a name cannot be empty");
+    }
+    transforms(c, &path.key("transform"), &object.transform);
+    let shape = path.key("shape");
+    match &object.shape {
+        Shape::Sphere { radius, .. } => c.positive(&shape.key("sphere").key("radius"), *radius),
+        Shape::Box { size, .. } => {
+            size.iter().enumerate().for_each(|(i, x)| c.positive(&shape.key("box").key("size").index(i), *x));
+        }
+        Shape::Cone { radius, height, top_radius, .. } => {
+            cone(c, &shape.key("cone"), *radius, *height, *top_radius)
+        }
+        Shape::Cylinder { radius, height, .. } => {
+            c.positive(&shape.key("cylinder").key("radius"), *radius);
+            c.positive(&shape.key("cylinder").key("height"), *height);
+        }
+        Shape::Disk { radius, inner_radius } => {
+            let (outer, inner) = (shape.key("disk").key("radius"), shape.key("disk").key("inner_radius"));
+            c.positive(&outer, *radius);
+            c.not_negative(&inner, *inner_radius);
+            if inner_radius >= radius && *radius > 0.0 {
+                let message = format!("{} is not below `radius`, {}", number(*inner_radius), number(*radius));
+                c.error_about(&[&inner, &outer], message);
+            }
+        }
+        Shape::Quad { size } => {
+            size.iter()
+                .enumerate()
+                .for_each(|(i, x)| c.positive(&shape.key("quad").key("size").index(i), *x));
+        }
+        Shape::Polyhedron { radius, .. } => c.positive(&shape.key("polyhedron").key("radius"), *radius),
+        Shape::Group { objects } => {
+            let list = shape.key("group").key("objects");
+            if objects.is_empty() {
+                c.error(&list, "the group is empty");
+            }
+            for (i, object) in objects.iter().enumerate() {
+                check_object(c, &list.index(i), object);
+            }
+        }
+        Shape::Scatter(scatter) => check_scatter(c, &shape.key("scatter"), scatter),
+        Shape::Mesh { .. } | Shape::Instance { .. } => {}
+    }
+}
+
+fn cone(c: &mut Checker, path: &Path, radius: f64, height: f64, top_radius: f64) {
+    let (bottom, top) = (path.key("radius"), path.key("top_radius"));
+    c.not_negative(&bottom, radius);
+    c.not_negative(&top, top_radius);
+    if radius == 0.0 && top_radius == 0.0 {
+        c.error_about(&[&bottom, &top], "`radius` and `top_radius` cannot both be 0");
+    }
+    c.positive(&path.key("height"), height);
+}
+
+fn check_scatter(c: &mut Checker, path: &Path, scatter: &Scatter) {
+    if scatter.of.is_empty() {
+        c.error(&path.key("of"), "at least one definition is needed");
+    }
+    c.within(&path.key("count"), scatter.count.into(), 1.0, 1e7);
+    for (i, factor) in scatter.scale.iter().enumerate() {
+        c.positive(&path.key("scale").index(i), *factor);
+    }
+    for (key, [low, high]) in [("scale", scatter.scale), ("turn_deg", scatter.turn_deg)] {
+        if low > high {
+            c.error(
+                &path.key(key),
+                format!("the smallest, {}, is above the largest, {}", number(low), number(high)),
+            );
+        }
+    }
+    c.within(&path.key("max_slope_deg"), scatter.max_slope_deg, 0.0, 180.0);
+    c.within(&path.key("align"), scatter.align, 0.0, 1.0);
+}
+
+/// Each step, and their product, must be invertible.
+fn transforms(c: &mut Checker, path: &Path, steps: &[Transform]) {
+    let mut product = DMat3::IDENTITY;
+    let mut sound = true;
+    for (i, step) in steps.iter().enumerate() {
+        let here = path.index(i);
+        let matrix = match step {
+            Transform::Translate(_) => continue,
+            Transform::Scale(Scale::Uniform(factor)) => DMat3::from_diagonal(DVec3::splat(*factor)),
+            Transform::Scale(Scale::PerAxis(factors)) => DMat3::from_diagonal(DVec3::from(*factors)),
+            // a turn changes no volume; only its axis can be wrong
+            Transform::Rotate { axis, .. } => {
+                c.direction(&here.key("rotate").key("axis"), *axis);
+                continue;
+            }
+            Transform::Matrix(rows) => {
+                let row = |r: usize| DVec3::new(rows[r][0], rows[r][1], rows[r][2]);
+                DMat3::from_cols(row(0), row(1), row(2)).transpose()
+            }
+        };
+        if singular(&matrix) {
+            sound = false;
+            c.error(&here, "this step flattens the object to nothing: a factor or the determinant is 0");
+        }
+        product = matrix * product;
+    }
+    if sound && singular(&product) {
+        c.error(path, "together these steps flatten the object to nothing");
+    }
+}
+
+/// |det M| < 1e-30·‖M‖³, computed on M/‖M‖ so that no scale overflows.
+fn singular(matrix: &DMat3) -> bool {
+    let largest = matrix.to_cols_array().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return true;
+    }
+    let unit = *matrix * (1.0 / largest);
+    let norm = unit.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    unit.determinant().abs() < 1e-30 * norm * norm * norm
+}

@@ -1,0 +1,221 @@
+//! Names must lead somewhere: textures, materials, definitions, surfaces to scatter over; no
+//! definition may contain itself; every visible surface needs a material.
+
+use super::objects::list;
+use super::{Checker, Kind, Severity};
+use crate::description::suggest::{listed, nearest, question};
+use crate::description::tree::Path;
+use crate::description::{Object, Shape, Source};
+use std::collections::HashSet;
+
+pub(super) fn check(c: &mut Checker) {
+    for (name, material) in c.scene.materials.iter() {
+        let path = Path::of("materials").key(name);
+        let sources = [
+            ("diffuse", &material.diffuse),
+            ("specular", &material.specular),
+            ("reflection", &material.reflection),
+            ("transmission", &material.transmission),
+            ("emission", &material.emission),
+        ];
+        for (key, source) in sources {
+            if let Source::Texture(texture) = source {
+                let plain = path.key(key).key("texture");
+                let full = plain.key("name");
+                let place = if c.root.find(&full).whole { full } else { plain };
+                texture_exists(c, &place, &texture.name);
+            }
+        }
+        if let Some(map) = &material.normal_map {
+            texture_exists(c, &path.key("normal_map").key("texture"), &map.texture);
+        }
+        if let Some(map) = &material.bump_map {
+            texture_exists(c, &path.key("bump_map").key("texture"), &map.texture);
+        }
+    }
+    for (name, object) in c.scene.definitions.iter() {
+        names_of(c, &Path::of("definitions").key(name), object);
+    }
+    for (i, object) in c.scene.objects.iter().enumerate() {
+        names_of(c, &list().index(i), object);
+    }
+    let cycles = cycles(c);
+    if !cycles {
+        let mut seen = HashSet::new();
+        for (i, object) in c.scene.objects.iter().enumerate() {
+            has_material(c, &list().index(i), object, false, &mut seen);
+        }
+    }
+}
+
+fn exists<'a>(c: &mut Checker, place: &Path, what: &str, name: &str, known: impl Iterator<Item = &'a str>) {
+    let known: Vec<&str> = known.collect();
+    if known.contains(&name) {
+        return;
+    }
+    let near = nearest(name, known.iter().copied()).is_some();
+    let help = match known.is_empty() {
+        true => Some(format!("the scene has no {what}s")),
+        false if near => None,
+        false => Some(format!("known: {}", listed(known.iter().copied()))),
+    };
+    let message = format!("no {what} `{name}`{}", question(name, known.iter().copied()));
+    c.report(Severity::Error, Kind::Invalid, &[place], message, help);
+}
+
+fn texture_exists(c: &mut Checker, place: &Path, name: &str) {
+    let scene = c.scene;
+    exists(c, place, "texture", name, scene.textures.names());
+}
+
+fn names_of(c: &mut Checker, path: &Path, object: &Object) {
+    let scene = c.scene;
+    if let Some(material) = &object.material {
+        exists(c, &path.key("material"), "material", material, scene.materials.names());
+    }
+    let shape = path.key("shape");
+    match &object.shape {
+        Shape::Mesh { parts, .. } => {
+            for (part, material) in parts.iter() {
+                let place = shape.key("mesh").key("parts").key(part);
+                exists(c, &place, "material", material, scene.materials.names());
+            }
+        }
+        Shape::Instance { of } => {
+            exists(c, &shape.key("instance").key("of"), "definition", of, scene.definitions.names());
+        }
+        Shape::Scatter(scatter) => {
+            let path = shape.key("scatter");
+            for (i, of) in scatter.of.iter().enumerate() {
+                exists(c, &path.key("of").index(i), "definition", of, scene.definitions.names());
+            }
+            surface(c, &path.key("over"), &scatter.over);
+        }
+        Shape::Group { objects } => {
+            for (i, object) in objects.iter().enumerate() {
+                names_of(c, &shape.key("group").key("objects").index(i), object);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn surface(c: &mut Checker, place: &Path, over: &str) {
+    let scene = c.scene;
+    let object = scene.objects.iter().find(|object| object.name.as_deref() == Some(over));
+    let definition = scene.definitions.get(over);
+    match (object, definition) {
+        (Some(_), Some(_)) => {
+            c.error(
+                place,
+                format!("`{over}` is the name of an object and of a definition: which one is not clear"),
+            );
+        }
+        (Some(one), None) | (None, Some(one)) => {
+            if matches!(one.shape, Shape::Scatter(_)) {
+                c.error(place, format!("`{over}` is itself a scatter, not a surface"));
+            }
+        }
+        (None, None) => {
+            let objects = scene.objects.iter().filter_map(|object| object.name.as_deref());
+            exists(c, place, "object or definition", over, objects.chain(scene.definitions.names()));
+        }
+    }
+}
+
+/// What an object is made of, by name: definitions and, for `over`, objects.
+fn uses<'a>(object: &'a Object, found: &mut Vec<&'a str>) {
+    match &object.shape {
+        Shape::Instance { of } => found.push(of),
+        Shape::Scatter(scatter) => {
+            found.extend(scatter.of.iter().map(String::as_str));
+            found.push(&scatter.over);
+        }
+        Shape::Group { objects } => objects.iter().for_each(|object| uses(object, found)),
+        _ => {}
+    }
+}
+
+/// Reports definitions and named objects that contain themselves; whether there are any.
+fn cycles(c: &mut Checker) -> bool {
+    let scene = c.scene;
+    let objects = scene.objects.iter().enumerate();
+    let named = objects.filter_map(|(i, o)| o.name.as_deref().map(|name| (name, o, list().index(i))));
+    let definitions = scene.definitions.iter().map(|(name, o)| (name, o, Path::of("definitions").key(name)));
+    let nodes: Vec<(&str, &Object, Path)> = definitions.chain(named).collect();
+    let index: std::collections::HashMap<&str, usize> =
+        nodes.iter().enumerate().rev().map(|(i, (name, ..))| (*name, i)).collect();
+    let edges: Vec<Vec<usize>> = nodes
+        .iter()
+        .map(|(_, object, _)| {
+            let mut found = Vec::new();
+            uses(object, &mut found);
+            found.iter().filter_map(|name| index.get(name).copied()).collect()
+        })
+        .collect();
+    // depth-first without recursion: 0 new, 1 on the way, 2 done
+    let mut state = vec![0_u8; nodes.len()];
+    let mut any = false;
+    for start in 0..nodes.len() {
+        let mut way: Vec<(usize, usize)> = if state[start] == 0 { vec![(start, 0)] } else { Vec::new() };
+        while let Some((node, next)) = way.last_mut() {
+            let node = *node;
+            state[node] = 1;
+            let Some(&to) = edges[node].get(*next) else {
+                state[node] = 2;
+                way.pop();
+                continue;
+            };
+            *next += 1;
+            if state[to] == 1 {
+                any = true;
+                let from = way.iter().position(|(n, _)| *n == to).unwrap_or(0);
+                let chain: Vec<&str> =
+                    way[from..].iter().map(|(n, _)| nodes[*n].0).chain([nodes[to].0]).collect();
+                c.error(&nodes[to].2.clone(), format!("contains itself: {}", chain.join(" → ")));
+            } else if state[to] == 0 {
+                way.push((to, 0));
+            }
+        }
+    }
+    any
+}
+
+/// Every leaf below `object` must get a material; definitions take that of what places them.
+fn has_material<'a>(
+    c: &mut Checker<'a>,
+    path: &Path,
+    object: &'a Object,
+    inherited: bool,
+    seen: &mut HashSet<(&'a str, bool)>,
+) {
+    let given = inherited || object.material.is_some() || c.root.find(&path.key("material")).hole;
+    let scene = c.scene;
+    let mut placed = |c: &mut Checker<'a>, name: &'a str| {
+        if let Some((name, definition)) = scene.definitions.iter().find(|(known, _)| *known == name)
+            && seen.insert((name, given))
+        {
+            has_material(c, &Path::of("definitions").key(name), definition, given, seen);
+        }
+    };
+    match &object.shape {
+        Shape::Group { objects } => {
+            for (i, object) in objects.iter().enumerate() {
+                let place = path.key("shape").key("group").key("objects").index(i);
+                has_material(c, &place, object, given, seen);
+            }
+        }
+        Shape::Instance { of } => placed(c, of),
+        Shape::Scatter(scatter) => scatter.of.iter().for_each(|of| placed(c, of)),
+        _ if !given => {
+            let first =
+                c.scene.materials.names().next().map_or_else(String::new, |m| format!(", such as {m:?}"));
+            let place = path.clone();
+            c.error_about(
+                &[&place, &path.key("shape")],
+                format!("no `material` is given, here or by a group{first}"),
+            );
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,76 @@
+//! Doubts: what is named but not used, and scenes with nothing to see. Warnings only, and none about
+//! entries of included files, which may well be libraries.
+
+use super::objects::list;
+use super::{Checker, Severity};
+use crate::description::tree::{Path, Span};
+use crate::description::{Object, Shape, Source};
+use std::collections::HashSet;
+
+pub(super) fn check(c: &mut Checker) {
+    let scene = c.scene;
+    let mut materials = HashSet::new();
+    let mut definitions = HashSet::new();
+    for object in scene.objects.iter().chain(scene.definitions.iter().map(|(_, object)| object)) {
+        collect(object, &mut materials, &mut definitions);
+    }
+    let textures: HashSet<&str> = scene
+        .materials
+        .iter()
+        .flat_map(|(_, m)| {
+            let sources = [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission];
+            let weights = sources.into_iter().filter_map(Source::texture).map(|t| t.name.as_str());
+            let normal = m.normal_map.iter().map(|map| map.texture.as_str());
+            weights.chain(normal).chain(m.bump_map.iter().map(|map| map.texture.as_str())).collect::<Vec<_>>()
+        })
+        .collect();
+    scene
+        .textures
+        .names()
+        .filter(|n| !textures.contains(n))
+        .for_each(|n| unused(c, "textures", "texture", n));
+    scene
+        .materials
+        .names()
+        .filter(|n| !materials.contains(n))
+        .for_each(|n| unused(c, "materials", "material", n));
+    scene
+        .definitions
+        .names()
+        .filter(|n| !definitions.contains(n))
+        .for_each(|n| unused(c, "definitions", "definition", n));
+    if scene.objects.is_empty() && !c.root.find(&list()).hole {
+        c.warn(&Path::default(), "the scene has no objects");
+    }
+    let emits = scene.materials.iter().any(|(_, m)| !m.emission.is_zero());
+    let lit = !scene.lights.is_empty() || !scene.ambient.is_zero() || !scene.background.is_zero();
+    if !lit && !emits {
+        c.warn(
+            &Path::default(),
+            "nothing shines in the scene: no light, no emission, no ambient, no background",
+        );
+    }
+}
+
+fn collect<'a>(object: &'a Object, materials: &mut HashSet<&'a str>, definitions: &mut HashSet<&'a str>) {
+    materials.extend(object.material.as_deref());
+    match &object.shape {
+        Shape::Mesh { parts, .. } => materials.extend(parts.iter().map(|(_, material)| material.as_str())),
+        Shape::Instance { of } => drop(definitions.insert(of)),
+        Shape::Scatter(scatter) => {
+            definitions.extend(scatter.of.iter().map(String::as_str));
+            definitions.insert(&scatter.over);
+        }
+        Shape::Group { objects } => objects.iter().for_each(|object| collect(object, materials, definitions)),
+        _ => {}
+    }
+}
+
+fn unused(c: &mut Checker, map: &str, what: &str, name: &str) {
+    if let Some(span @ Span { source: 0, .. }) = c.key_span(map, name) {
+        let message = format!("the {what} is not used");
+        let mut diagnostic = c.sources.diagnostic(Severity::Warning, super::Kind::Invalid, span, message);
+        diagnostic.path = Some(Path::of(map).key(name).to_string());
+        c.diagnostics.push(diagnostic);
+    }
+}

@@ -1,0 +1,201 @@
+//! Reading: text → tree → `include` → `--set` → types → checks, with every mistake in one report.
+
+mod de;
+mod fault;
+mod include;
+mod recover;
+mod ron;
+mod set;
+mod toml;
+
+use super::check;
+use super::diagnostic::{Diagnostic, Kind, Report, Severity};
+use super::source::{self, Source, Sources};
+use super::tree::{Node, Span};
+use super::{Scene, assets};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// The two languages of scene files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Ron,
+    Toml,
+}
+
+impl Format {
+    /// By the ending `.ron` or `.toml`.
+    pub fn from_path(path: &Path) -> Option<Format> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "ron" => Some(Format::Ron),
+            "toml" => Some(Format::Toml),
+            _ => None,
+        }
+    }
+}
+
+/// A scene that has been read and checked.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// With everything that it includes; paths of meshes and images start from the working directory
+    /// (or are absolute), and `include` is empty.
+    pub scene: Scene,
+    pub warnings: Vec<Diagnostic>,
+    /// The scene file and those that it includes.
+    pub files: Vec<PathBuf>,
+    /// The folder that the scene's paths were relative to.
+    pub folder: PathBuf,
+    /// SHA-256 of what the scene says, whatever the format, the layout or the folder it is read from.
+    pub hash: [u8; 32],
+}
+
+/// Reads and checks a scene file, after `overrides` (`path.to.key=value`) have been applied to it.
+pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Report> {
+    let (text, format) = open(path)?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    Reading::new(folder).load(Some(path.to_owned()), text, format, overrides)
+}
+
+/// Reads and checks a scene that is at hand as text; its paths are relative to `folder`.
+pub fn load_str(text: &str, format: Format, folder: &Path, overrides: &[String]) -> Result<Loaded, Report> {
+    let text = source::without_mark(text.to_owned());
+    Reading::new(folder.to_owned()).load(None, text, format, overrides)
+}
+
+/// The scene of a file alone, for `convert`: `include` and paths as written, values not checked.
+pub fn load_as_written(path: &Path, overrides: &[String]) -> Result<Scene, Report> {
+    let (text, format) = open(path)?;
+    let mut reading = Reading::new(path.parent().unwrap_or(Path::new("")).to_owned());
+    reading.as_written(Some(path.to_owned()), text, format, overrides)
+}
+
+/// As `load_as_written`, from text.
+pub fn load_str_as_written(text: &str, format: Format, overrides: &[String]) -> Result<Scene, Report> {
+    let text = source::without_mark(text.to_owned());
+    Reading::new(PathBuf::new()).as_written(None, text, format, overrides)
+}
+
+/// RON as scenes are written: `Some` may be left out, and the parentheses of a struct within a variant.
+pub(crate) fn convert_options() -> ::ron::Options {
+    use ::ron::extensions::Extensions;
+    ::ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
+        .with_recursion_limit(512)
+}
+
+/// The tree of RON text that was written by us.
+pub(crate) fn tree_of_ron(text: &str) -> Result<Node, String> {
+    ron::parse(text, 0).map_err(|errors| errors[0].1.clone())
+}
+
+fn open(path: &Path) -> Result<(String, Format), Report> {
+    let format = Format::from_path(path).ok_or_else(|| {
+        let message = "a scene file's name ends in .ron or .toml".to_owned();
+        Diagnostic::of_file(path, Kind::NotSupported, message)
+    })?;
+    Ok((source::read(path)?, format))
+}
+
+struct Reading {
+    folder: PathBuf,
+    sources: Sources,
+    diagnostics: Vec<Diagnostic>,
+    /// An included file could not be read: names may be missing for that reason.
+    incomplete: bool,
+}
+
+impl Reading {
+    fn new(folder: PathBuf) -> Reading {
+        Reading { folder, sources: Sources::default(), diagnostics: Vec::new(), incomplete: false }
+    }
+
+    fn error(&mut self, kind: Kind, span: Span, message: String) {
+        self.diagnostics.push(self.sources.diagnostic(Severity::Error, kind, span, message));
+    }
+
+    /// The tree of a text, or its syntax errors.
+    fn parse(&mut self, source: Source) -> Option<Node> {
+        let index = self.sources.add(source);
+        let Source { text, format, .. } = self.sources.get(index);
+        let parsed = match format {
+            Format::Ron => ron::parse(text, index),
+            Format::Toml => toml::parse(text, index),
+        };
+        match parsed {
+            Ok(node) => Some(node),
+            Err(errors) => {
+                for (start, message) in errors {
+                    self.error(Kind::Invalid, Span { source: index, start, end: start }, message);
+                }
+                None
+            }
+        }
+    }
+
+    fn main_source(file: Option<PathBuf>, text: String, format: Format) -> Source {
+        Source { file, argument: false, base: PathBuf::new(), format, text }
+    }
+
+    fn as_written(
+        &mut self,
+        file: Option<PathBuf>,
+        text: String,
+        format: Format,
+        overrides: &[String],
+    ) -> Result<Scene, Report> {
+        let scene = self.parse(Self::main_source(file, text, format)).and_then(|mut root| {
+            set::apply(self, &mut root, overrides);
+            recover::read::<Scene>(&mut root, &self.sources, &mut self.diagnostics)
+        });
+        self.finish(scene)
+    }
+
+    fn load(
+        mut self,
+        file: Option<PathBuf>,
+        text: String,
+        format: Format,
+        overrides: &[String],
+    ) -> Result<Loaded, Report> {
+        let scene = self.parse(Self::main_source(file, text, format)).and_then(|mut root| {
+            include::merge(&mut self, &mut root);
+            set::apply(&mut self, &mut root, overrides);
+            let mut scene: Scene = recover::read(&mut root, &self.sources, &mut self.diagnostics)?;
+            scene.include.clear();
+            assets::for_each(&mut scene, &mut |path, place| {
+                let base = &self.sources.get(root.find(place).node.span.source).base;
+                rebase(path, base);
+            });
+            let folder = &self.folder;
+            self.diagnostics.extend(check::check(&scene, &root, &self.sources, folder, self.incomplete));
+            Some(scene)
+        });
+        let mut scene = self.finish(scene)?;
+        let hash = hash(&scene);
+        assets::for_each(&mut scene, &mut |path, _| rebase(path, &self.folder));
+        let warnings = Report::new(self.diagnostics).diagnostics;
+        Ok(Loaded { scene, warnings, files: self.sources.files(), folder: self.folder, hash })
+    }
+
+    /// The scene if nothing is wrong with it.
+    fn finish(&mut self, scene: Option<Scene>) -> Result<Scene, Report> {
+        let wrong = self.diagnostics.iter().any(|d| d.severity == Severity::Error);
+        match scene {
+            Some(scene) if !wrong => Ok(scene),
+            _ => Err(Report::new(std::mem::take(&mut self.diagnostics))),
+        }
+    }
+}
+
+/// A path relative to `base` made relative to what `base` is relative to.
+fn rebase(path: &mut String, base: &Path) {
+    if !base.as_os_str().is_empty() {
+        *path = base.join(&*path).to_string_lossy().into_owned();
+    }
+}
+
+fn hash(scene: &Scene) -> [u8; 32] {
+    let canonical = serde_json::to_vec(scene).expect("a scene has only text keys and finite numbers");
+    Sha256::digest(canonical).into()
+}
