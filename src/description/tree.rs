@@ -96,16 +96,7 @@ impl Node {
         self.entries().iter().find(|entry| entry.key == key)
     }
 
-    /// The number of child slots; their order is that of `child`.
-    pub fn child(&self, index: usize) -> Option<&Node> {
-        match &self.value {
-            Value::Seq(items) => items.get(index),
-            Value::Map(entries, _) => entries.get(index).map(|entry| &entry.node),
-            Value::Tagged(_, _, content) => (index == 0).then_some(content),
-            _ => None,
-        }
-    }
-
+    /// By position: of an item, of an entry, or 0 for the content of a tag.
     pub fn child_mut(&mut self, index: usize) -> Option<&mut Node> {
         match &mut self.value {
             Value::Seq(items) => items.get_mut(index),

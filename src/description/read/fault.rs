@@ -24,7 +24,7 @@ pub(super) enum Fault {
     Message(String),
 }
 
-/// A fault and where it is: child indices from the inside out (see `Node::child`).
+/// A fault and where it is: child indices from the inside out (see `Node::child_mut`).
 #[derive(Clone, Debug)]
 pub(super) struct Located {
     pub fault: Fault,
