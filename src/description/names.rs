@@ -5,6 +5,7 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -77,12 +78,12 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for NameMap<T> {
 
             fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<NameMap<T>, A::Error> {
                 let mut map = NameMap::default();
+                let mut taken = HashSet::new();
                 while let Some(name) = access.next_key::<String>()? {
-                    let taken = map.get(&name).is_some();
-                    let shown = if taken { name.clone() } else { String::new() };
-                    if map.insert(name, access.next_value()?).is_err() {
-                        return Err(A::Error::custom(format!("the name `{shown}` is given twice")));
+                    if !taken.insert(name.clone()) {
+                        return Err(A::Error::custom(format!("the name `{name}` is given twice")));
                     }
+                    map.entries.push((name, access.next_value()?));
                 }
                 Ok(map)
             }

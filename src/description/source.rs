@@ -32,6 +32,11 @@ impl Sources {
         &self.0[index]
     }
 
+    /// Bytes of each text.
+    pub fn sizes(&self) -> impl Iterator<Item = usize> {
+        self.0.iter().map(|source| source.text.len())
+    }
+
     pub fn files(&self) -> Vec<PathBuf> {
         self.0.iter().filter_map(|source| source.file.clone()).collect()
     }

@@ -27,7 +27,7 @@ pub(super) fn check(c: &mut Checker, path: &Path, material: &Material) {
     let channel =
         if total(0) == total(1) && total(1) == total(2) { "" } else { ["red: ", "green: ", "blue: "][worst] };
     let rounded = |x: f64| number((x * 1000.0).round() / 1000.0);
-    let room = rounded((((1.0 - layered(worst)) * 1000.0).floor() / 1000.0).max(0.0));
+    let room = rounded((((1.0 - layered(worst)) * 1000.0 + 1e-6).floor() / 1000.0).max(0.0));
     let message = format!(
         "{channel}gives back {} of the light it gets: {} by its layers and {} by its highlight",
         rounded(total(worst)),

@@ -10,22 +10,39 @@ mod references;
 mod settings;
 mod usage;
 
-use super::Scene;
 use super::diagnostic::{Diagnostic, Kind, Severity};
 use super::source::Sources;
 use super::tree::{Node, Path, Span, number};
+use super::{Object, Scene};
+use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
 /// All that is wrong or doubtful with a scene whose tree is `root`; file paths in it are relative to
-/// `folder`. In an `incomplete` scene (an included file is missing) no names are looked up.
+/// `folder`. In an `incomplete` scene (an included file is missing) no names are looked up; only a `sound` one, without mistakes so far, can give rise to doubts.
 pub(super) fn check(
     scene: &Scene,
     root: &Node,
     sources: &Sources,
     folder: &FilePath,
     incomplete: bool,
+    sound: bool,
 ) -> Vec<Diagnostic> {
-    let mut checker = Checker { scene, root, sources, folder, diagnostics: Vec::new() };
+    let mut checker = Checker {
+        scene,
+        root,
+        sources,
+        folder,
+        diagnostics: Vec::new(),
+        textures: scene.textures.names().collect(),
+        materials: scene.materials.names().collect(),
+        definitions: scene.definitions.iter().collect(),
+        objects: scene
+            .objects
+            .iter()
+            .enumerate()
+            .filter_map(|(i, o)| Some((o.name.as_deref()?, i)))
+            .collect(),
+    };
     settings::check(&mut checker);
     materials::textures(&mut checker);
     materials::check(&mut checker);
@@ -34,7 +51,10 @@ pub(super) fn check(
     files::check(&mut checker);
     if !incomplete {
         references::check(&mut checker);
-        usage::check(&mut checker);
+        // a wrong name makes another one unused: nothing that needs saying
+        if sound && !checker.diagnostics.iter().any(|d| d.severity == Severity::Error) {
+            usage::check(&mut checker);
+        }
     }
     checker.diagnostics
 }
@@ -45,6 +65,11 @@ struct Checker<'a> {
     sources: &'a Sources,
     folder: &'a FilePath,
     diagnostics: Vec<Diagnostic>,
+    textures: HashSet<&'a str>,
+    materials: HashSet<&'a str>,
+    definitions: HashMap<&'a str, &'a Object>,
+    /// Those of the top level, by name.
+    objects: HashMap<&'a str, usize>,
 }
 
 impl Checker<'_> {

@@ -142,7 +142,8 @@ fn transforms(c: &mut Checker, path: &Path, steps: &[Transform]) {
         };
         if singular(&matrix) {
             sound = false;
-            c.error(&here, "this step flattens the object to nothing: a factor or the determinant is 0");
+            let message = "this step flattens the object to nothing: a factor or the determinant is 0";
+            c.error_about(&[&here, &here.key("scale"), &here.key("matrix")], message);
         }
         product = matrix * product;
     }

@@ -48,46 +48,58 @@ pub(super) fn check(c: &mut Checker) {
     }
 }
 
-fn exists<'a>(c: &mut Checker, place: &Path, what: &str, name: &str, known: impl Iterator<Item = &'a str>) {
+fn missing<'a>(c: &mut Checker, place: &Path, what: &str, name: &str, known: impl Iterator<Item = &'a str>) {
     let known: Vec<&str> = known.collect();
-    if known.contains(&name) {
-        return;
-    }
-    let near = nearest(name, known.iter().copied()).is_some();
-    let help = match known.is_empty() {
-        true => Some(format!("the scene has no {what}s")),
-        false if near => None,
-        false => Some(format!("known: {}", listed(known.iter().copied()))),
+    let near = nearest(name, known.iter().copied());
+    let help = match near {
+        None if known.is_empty() => Some(format!("the scene has no {what}s")),
+        None => Some(format!("known: {}", listed(known.iter().copied()))),
+        Some(_) => None,
     };
-    let message = format!("no {what} `{name}`{}", question(name, known.iter().copied()));
+    let message = format!("no {what} `{name}`{}", question(name, near));
     c.report(Severity::Error, Kind::Invalid, &[place], message, help);
 }
 
 fn texture_exists(c: &mut Checker, place: &Path, name: &str) {
     let scene = c.scene;
-    exists(c, place, "texture", name, scene.textures.names());
+    if !c.textures.contains(name) {
+        missing(c, place, "texture", name, scene.textures.names());
+    }
+}
+
+fn material_exists(c: &mut Checker, place: &Path, name: &str) {
+    let scene = c.scene;
+    if !c.materials.contains(name) {
+        missing(c, place, "material", name, scene.materials.names());
+    }
+}
+
+fn definition_exists(c: &mut Checker, place: &Path, name: &str) {
+    let scene = c.scene;
+    if !c.definitions.contains_key(name) {
+        missing(c, place, "definition", name, scene.definitions.names());
+    }
 }
 
 fn names_of(c: &mut Checker, path: &Path, object: &Object) {
-    let scene = c.scene;
     if let Some(material) = &object.material {
-        exists(c, &path.key("material"), "material", material, scene.materials.names());
+        material_exists(c, &path.key("material"), material);
     }
     let shape = path.key("shape");
     match &object.shape {
         Shape::Mesh { parts, .. } => {
             for (part, material) in parts.iter() {
                 let place = shape.key("mesh").key("parts").key(part);
-                exists(c, &place, "material", material, scene.materials.names());
+                material_exists(c, &place, material);
             }
         }
         Shape::Instance { of } => {
-            exists(c, &shape.key("instance").key("of"), "definition", of, scene.definitions.names());
+            definition_exists(c, &shape.key("instance").key("of"), of);
         }
         Shape::Scatter(scatter) => {
             let path = shape.key("scatter");
             for (i, of) in scatter.of.iter().enumerate() {
-                exists(c, &path.key("of").index(i), "definition", of, scene.definitions.names());
+                definition_exists(c, &path.key("of").index(i), of);
             }
             surface(c, &path.key("over"), &scatter.over);
         }
@@ -102,8 +114,8 @@ fn names_of(c: &mut Checker, path: &Path, object: &Object) {
 
 fn surface(c: &mut Checker, place: &Path, over: &str) {
     let scene = c.scene;
-    let object = scene.objects.iter().find(|object| object.name.as_deref() == Some(over));
-    let definition = scene.definitions.get(over);
+    let object = c.objects.get(over).map(|i| &scene.objects[*i]);
+    let definition = c.definitions.get(over).copied();
     match (object, definition) {
         (Some(_), Some(_)) => {
             c.error(
@@ -118,7 +130,7 @@ fn surface(c: &mut Checker, place: &Path, over: &str) {
         }
         (None, None) => {
             let objects = scene.objects.iter().filter_map(|object| object.name.as_deref());
-            exists(c, place, "object or definition", over, objects.chain(scene.definitions.names()));
+            missing(c, place, "object or definition", over, objects.chain(scene.definitions.names()));
         }
     }
 }
@@ -190,9 +202,8 @@ fn has_material<'a>(
     seen: &mut HashSet<(&'a str, bool)>,
 ) {
     let given = inherited || object.material.is_some() || c.root.find(&path.key("material")).hole;
-    let scene = c.scene;
     let mut placed = |c: &mut Checker<'a>, name: &'a str| {
-        if let Some((name, definition)) = scene.definitions.iter().find(|(known, _)| *known == name)
+        if let Some(definition) = c.definitions.get(name).copied()
             && seen.insert((name, given))
         {
             has_material(c, &Path::of("definitions").key(name), definition, given, seen);
@@ -208,13 +219,10 @@ fn has_material<'a>(
         Shape::Instance { of } => placed(c, of),
         Shape::Scatter(scatter) => scatter.of.iter().for_each(|of| placed(c, of)),
         _ if !given => {
-            let first =
-                c.scene.materials.names().next().map_or_else(String::new, |m| format!(", such as {m:?}"));
-            let place = path.clone();
-            c.error_about(
-                &[&place, &path.key("shape")],
-                format!("no `material` is given, here or by a group{first}"),
-            );
+            let help =
+                c.scene.materials.names().next().map(|name| format!("add `material`, such as {name:?}"));
+            let message = "no `material` is given, here or by a group".to_owned();
+            c.report(Severity::Error, Kind::Invalid, &[path, &path.key("shape")], message, help);
         }
         _ => {}
     }

@@ -168,7 +168,15 @@ impl Reading {
                 rebase(path, base);
             });
             let folder = &self.folder;
-            self.diagnostics.extend(check::check(&scene, &root, &self.sources, folder, self.incomplete));
+            let sound = self.diagnostics.is_empty();
+            self.diagnostics.extend(check::check(
+                &scene,
+                &root,
+                &self.sources,
+                folder,
+                self.incomplete,
+                sound,
+            ));
             Some(scene)
         });
         let mut scene = self.finish(scene)?;

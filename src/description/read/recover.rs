@@ -10,8 +10,11 @@ use crate::description::tree::{Entry, Node, Path, Span, Step, Style, Value};
 use serde::Deserialize;
 use std::collections::HashMap;
 
-/// After so many mistakes the rest is not looked for.
+/// After so many mistakes of structure the rest is not looked for; each costs a reading of the tree, so
+/// in very large files it is fewer.
 const MAX_MISTAKES: usize = 200;
+const MIN_MISTAKES: usize = 10;
+const LARGE_BYTES: usize = 1 << 20;
 
 pub(super) fn read<'s, T: for<'a> Deserialize<'a>>(
     root: &mut Node,
@@ -20,12 +23,16 @@ pub(super) fn read<'s, T: for<'a> Deserialize<'a>>(
 ) -> Option<T> {
     let mut recovery = Recovery { sources, diagnostics };
     recovery.before_types(root, &Path::default());
-    for _ in 0..MAX_MISTAKES {
+    let size: usize = sources.sizes().sum();
+    let most = (MAX_MISTAKES * LARGE_BYTES / size.max(LARGE_BYTES)).max(MIN_MISTAKES);
+    for _ in 0..most {
         match T::deserialize(De(root)) {
             Ok(value) => return Some(value),
             Err(error) => recovery.put_right(root, error)?,
         }
     }
+    let message = format!("there may be more mistakes: reading stopped after {most}");
+    recovery.report(root.span, &Path::default(), message, None);
     None
 }
 
@@ -166,10 +173,13 @@ impl Recovery<'_, '_> {
         };
         let present: Vec<String> = entries.iter().map(|entry| entry.key.clone()).collect();
         let free = || known.iter().copied().filter(|field| !present.iter().any(|p| p == field));
-        let message = format!("there is no field `{name}` here{}", question(name, free()));
+        let near = nearest(name, free());
+        // a name that is there already is suggested, but cannot be meant a second time
+        let shown = near.or_else(|| nearest(name, known.iter().copied()));
+        let message = format!("there is no field `{name}` here{}", question(name, shown));
         let help = format!("known: {}", one_of(known));
         self.report(entries.get(index)?.key_span, path, message, Some(help));
-        match nearest(name, free()) {
+        match near {
             Some(near) => entries[index].key = near.to_owned(),
             None => drop(entries.remove(index)),
         }

@@ -10,7 +10,11 @@ pub(super) fn parse(text: &str, source: usize) -> Result<Node, Vec<SyntaxError>>
     let (table, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         let place = |e: &toml::de::Error| e.span().map_or(0, |span| span.start);
-        return Err(errors.iter().map(|e| (place(e), e.message().replace('\n', "; "))).collect());
+        let mut errors: Vec<SyntaxError> =
+            errors.iter().map(|e| (place(e), e.message().replace('\n', "; "))).collect();
+        errors.sort();
+        errors.dedup();
+        return Err(errors);
     }
     let mut numbers = Vec::new();
     let root = Node {
