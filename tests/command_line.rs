@@ -264,6 +264,19 @@ fn converting_there_and_back_keeps_the_scene() {
 }
 
 #[test]
+fn converting_keeps_includes_and_paths_as_written() {
+    let folder = folder();
+    let parts = r#"(definitions: { "tree": (shape: mesh(path: "tree.obj")) })"#;
+    fs::write(folder.path().join("parts.ron"), parts).expect("written");
+    assert_eq!(run(&folder, "convert parts.ron parts.toml").code, Some(0));
+    let toml = fs::read_to_string(folder.path().join("parts.toml")).expect("written");
+    assert!(toml.contains("path = \"tree.obj\""), "{toml}");
+    fs::write(folder.path().join("whole.toml"), "include = [\"parts.toml\"]\n").expect("written");
+    let whole = run(&folder, "convert whole.toml - --to ron");
+    assert!(String::from_utf8_lossy(&whole.stdout).contains("include: [\"parts.toml\"]"));
+}
+
+#[test]
 fn check_judges_every_scene_and_answers_machines_in_json() {
     let folder = folder();
     fs::write(folder.path().join("wrong.ron"), "(camera: (eye: 3))").expect("written");

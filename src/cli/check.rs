@@ -46,6 +46,12 @@ pub fn load(scene: &Path, reading: &Reading) -> Result<Result<Loaded, Report>, F
     if scene != Path::new("-") {
         return Ok(description::load(scene, &reading.set));
     }
+    let (text, format) = standard_input(reading)?;
+    Ok(description::load_str(&text, format, Path::new("."), &reading.set))
+}
+
+/// The scene on standard input, and its language.
+pub fn standard_input(reading: &Reading) -> Result<(String, description::Format), Failure> {
     let Some(format) = reading.scene_format else {
         return Err(Failure::new(USAGE, "a scene from standard input needs --scene-format ron or toml"));
     };
@@ -61,7 +67,7 @@ pub fn load(scene: &Path, reading: &Reading) -> Result<Result<Loaded, Report>, F
     if length as u64 > LONGEST_INPUT {
         return Err(unreadable("it is longer than 256 MiB"));
     }
-    Ok(description::load_str(&text, format.into(), Path::new("."), &reading.set))
+    Ok((text, format.into()))
 }
 
 /// Reads a scene and prints its mistakes and warnings.
@@ -71,9 +77,12 @@ pub fn load_and_report(scene: &Path, reading: &Reading, terminal: &Terminal) -> 
             loaded.warnings.iter().for_each(|warning| terminal.diagnostic(warning));
             Ok(loaded)
         }
-        Err(report) => {
-            report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
-            Err(Failure::new(report.exit_code(), ""))
-        }
+        Err(report) => Err(refused(&report, terminal)),
     }
+}
+
+/// Prints all that is wrong with a scene.
+pub fn refused(report: &Report, terminal: &Terminal) -> Failure {
+    report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
+    Failure::new(report.exit_code(), "")
 }

@@ -1,7 +1,8 @@
-//! `convert`: a scene in the other format.
+//! `convert`: a scene in the other format. What it includes and the paths that it names stay as
+//! written; values are typed but not checked, so that a file that is only included converts too.
 
 use super::args::ConvertArgs;
-use super::check::load_and_report;
+use super::check::{refused, standard_input};
 use super::exit::{FAILED, Failure, USAGE};
 use super::report::{self, Terminal};
 use std::path::Path;
@@ -22,8 +23,15 @@ pub fn run(args: &ConvertArgs, terminal: &Terminal) -> Result<(), Failure> {
             };
             Failure::new(USAGE, reason)
         })?;
-    let loaded = load_and_report(&args.input, &args.reading, terminal)?;
-    let text = description::to_string(&loaded.scene, format).map_err(|error| {
+    let set = &args.reading.set;
+    let scene = if args.input == Path::new("-") {
+        let (text, from) = standard_input(&args.reading)?;
+        description::load_str_as_written(&text, from, set)
+    } else {
+        description::load_as_written(&args.input, set)
+    };
+    let scene = scene.map_err(|report| refused(&report, terminal))?;
+    let text = description::to_string(&scene, format).map_err(|error| {
         Failure::new(FAILED, format!("can't write {} in this format: {error}", args.input.display()))
     })?;
     if to_stdout {

@@ -21,6 +21,7 @@ pub struct Stats {
     pub truncated_weight: f64,
     pub rare_events: Vec<RareEvent>,
     pub memory: Memory,
+    #[serde(rename = "scene_size")]
     pub scene: SceneSize,
 }
 
