@@ -250,7 +250,10 @@ fn links_lead_to_files() {
                 assert!(folder.join(file).exists(), "{page_name} links to {target}, which is not there");
             }
             let anchor = target.strip_prefix('#').unwrap_or_default();
-            assert!(anchor.is_empty() || anchors(&page).contains(anchor), "{page_name}: no heading for #{anchor}");
+            assert!(
+                anchor.is_empty() || anchors(&page).contains(anchor),
+                "{page_name}: no heading for #{anchor}"
+            );
         }
     }
 }
@@ -261,7 +264,11 @@ fn anchors(page: &str) -> BTreeSet<String> {
         .filter(|line| line.starts_with('#'))
         .map(|line| {
             let heading = line.trim_start_matches('#').trim().to_lowercase();
-            heading.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c)).collect::<String>().replace(' ', "-")
+            heading
+                .chars()
+                .filter(|c| c.is_alphanumeric() || " -_".contains(*c))
+                .collect::<String>()
+                .replace(' ', "-")
         })
         .collect()
 }
