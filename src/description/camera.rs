@@ -5,6 +5,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A perspective camera at `eye` that looks at `target`.
+///
+/// ```ron
+/// camera: (eye: (0, 3, 6.5), target: (0, 0.8, 0), fov_deg: 40, aperture_m: 0.02, focus_m: 6)
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {

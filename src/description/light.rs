@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Light {
     /// Shines equally in all directions. `intensity` in W/sr.
+    ///
+    /// ```ron
+    /// lights: { "bulb": point(position: (0, 3, 0), intensity: 10, falloff: (1, 0, 0.1)) }
+    /// ```
     Point {
         position: Vector,
         intensity: Rgb,
@@ -18,6 +22,10 @@ pub enum Light {
     },
     /// A point light within a cone around the direction to `target`. Full intensity within
     /// `inner_deg`, none outside `outer_deg` (angles from the axis), smooth between.
+    ///
+    /// ```ron
+    /// lights: { "stage": spot(position: (0, 3, 0), target: (0, 0, 0), intensity: 30, inner_deg: 10, outer_deg: 15) }
+    /// ```
     Spot {
         position: Vector,
         target: Vector,
@@ -28,8 +36,16 @@ pub enum Light {
         outer_deg: f64,
     },
     /// Parallel light that travels along `direction`. `irradiance` in W·m⁻² on a surface that faces it.
+    ///
+    /// ```ron
+    /// lights: { "sun": directional(direction: (0.3, -1, 0), irradiance: (3, 2.9, 2.7)) }
+    /// ```
     Directional { direction: Vector, irradiance: Rgb },
     /// A luminous sphere. `radiance` in W·m⁻²·sr⁻¹.
+    ///
+    /// ```ron
+    /// lights: { "globe": sphere(center: (-3, 5, -2), radius: 0.4, radiance: 60) }
+    /// ```
     Sphere {
         center: Vector,
         radius: f64,
@@ -43,6 +59,10 @@ pub enum Light {
     },
     /// A luminous parallelogram corner + s·edge_u + t·edge_v, s, t in [0, 1]. Shines to the side of
     /// edge_u × edge_v; its back is black.
+    ///
+    /// ```ron
+    /// lights: { "panel": quad(corner: (-1, 3, -1), edge_u: (2, 0, 0), edge_v: (0, 0, 2), radiance: 5) }
+    /// ```
     Quad {
         corner: Vector,
         edge_u: Vector,
@@ -56,6 +76,10 @@ pub enum Light {
         visible: bool,
     },
     /// A luminous disk. Shines to the side of `normal`; its back is black.
+    ///
+    /// ```ron
+    /// lights: { "spotlight": disk(center: (0, 3, 0), normal: (0, -1, 0), radius: 0.5, radiance: 5, two_sided: true) }
+    /// ```
     Disk {
         center: Vector,
         normal: Vector,
@@ -69,6 +93,10 @@ pub enum Light {
         visible: bool,
     },
     /// Light from infinitely far all around. At most one a scene.
+    ///
+    /// ```ron
+    /// lights: { "sky": environment(map: constant((0.5, 0.7, 1)), scale: 2, turn_deg: 90) }
+    /// ```
     Environment {
         map: EnvironmentMap,
         /// Factor on the map's radiance.
@@ -88,14 +116,23 @@ pub enum Light {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum EnvironmentMap {
+    /// The same from everywhere.
+    ///
+    /// ```ron
+    /// lights: { "sky": environment(map: constant(1)) }
+    /// ```
     Constant(Rgb),
     /// Blends by the sine of the elevation: nadir (−1), horizon (0), zenith (1).
-    Gradient {
-        zenith: Rgb,
-        horizon: Rgb,
-        nadir: Rgb,
-    },
+    ///
+    /// ```ron
+    /// lights: { "sky": environment(map: gradient(zenith: (0.2, 0.4, 1), horizon: 1, nadir: 0.1)) }
+    /// ```
+    Gradient { zenith: Rgb, horizon: Rgb, nadir: Rgb },
     /// Equirectangular image (EXR or PNG or JPEG): the centre column looks along −z, up is +y.
+    ///
+    /// ```ron
+    /// lights: { "sky": environment(map: image(path: "sky.exr")) }
+    /// ```
     Image {
         path: String,
         #[serde(default)]

@@ -11,6 +11,14 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// What a surface is made of. The default is black.
+///
+/// ```ron
+/// materials: {
+///     "table": (diffuse: texture("wood"), specular: 0.1, shininess: 80),
+///     "lemonade": (transmission: 1, ior: "water", absorption: (0.5, 0.7, 3), priority: -1),
+///     "lamp": (emission: (10, 9, 8)),
+/// }
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
@@ -53,6 +61,10 @@ fn is_zero_priority(p: &i32) -> bool {
 
 /// A tangent-space normal map: the texture's (r, g, b) in [0, 1] is the normal 2·(r, g, b) − 1, with r
 /// along ∂p/∂u, g along ∂p/∂v and b along the surface normal. Its image is read as linear.
+///
+/// ```ron
+/// materials: { "wall": (diffuse: 0.7, normal_map: (texture: "bricks", strength: 0.5)) }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NormalMap {
@@ -63,6 +75,10 @@ pub struct NormalMap {
 }
 
 /// Blinn's bump map: the texture's luminance times `height_m` displaces the surface in thought.
+///
+/// ```ron
+/// materials: { "wall": (diffuse: 0.7, bump_map: (texture: "bricks", height_m: 0.01)) }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BumpMap {
@@ -76,6 +92,10 @@ fn one() -> f64 {
 }
 
 /// An index of refraction, as a number or by name.
+///
+/// ```ron
+/// materials: { "a": (transmission: 1, ior: 1.52), "b": (transmission: 1, ior: "diamond") }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Ior {

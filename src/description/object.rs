@@ -5,6 +5,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A shape of some material, placed by a list of transforms.
+///
+/// ```ron
+/// objects: [(name: "ball", shape: sphere(), material: "glass", transform: [translate((0, 1, 0))])]
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
@@ -23,6 +27,11 @@ pub struct Object {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
+    /// A sphere around `center`.
+    ///
+    /// ```ron
+    /// objects: [(shape: sphere(radius: 0.5, center: (0, 1, 0)), material: "glass")]
+    /// ```
     Sphere {
         #[serde(default = "one")]
         radius: f64,
@@ -30,6 +39,10 @@ pub enum Shape {
         center: Vector,
     },
     /// A box of edge lengths `size` around `center`.
+    ///
+    /// ```ron
+    /// objects: [(shape: box(size: (1, 2, 1)), material: "glass")]
+    /// ```
     Box {
         #[serde(default = "ones")]
         size: Vector,
@@ -37,6 +50,10 @@ pub enum Shape {
         center: Vector,
     },
     /// From `radius` at y = 0 to `top_radius` at y = `height`; 0 is a point.
+    ///
+    /// ```ron
+    /// objects: [(shape: cone(radius: 1, height: 2, top_radius: 0.5, caps: false), material: "glass")]
+    /// ```
     Cone {
         #[serde(default = "one")]
         radius: f64,
@@ -47,6 +64,11 @@ pub enum Shape {
         #[serde(default = "yes")]
         caps: bool,
     },
+    /// A cylinder of `radius` from y = 0 to y = `height`.
+    ///
+    /// ```ron
+    /// objects: [(shape: cylinder(radius: 0.2, height: 2), material: "glass")]
+    /// ```
     Cylinder {
         #[serde(default = "one")]
         radius: f64,
@@ -56,6 +78,10 @@ pub enum Shape {
         caps: bool,
     },
     /// In the plane y = 0 around the origin, normal +y. `inner_radius` makes a ring.
+    ///
+    /// ```ron
+    /// objects: [(shape: disk(radius: 1, inner_radius: 0.5), material: "glass")]
+    /// ```
     Disk {
         #[serde(default = "one")]
         radius: f64,
@@ -63,18 +89,30 @@ pub enum Shape {
         inner_radius: f64,
     },
     /// A rectangle of `size` (x, z) in the plane y = 0 around the origin, normal +y.
+    ///
+    /// ```ron
+    /// objects: [(shape: quad(size: (4, 3)), material: "table")]
+    /// ```
     Quad {
         #[serde(default = "one_by_one")]
         size: [f64; 2],
     },
     /// A regular solid with its corners at `radius` from the origin, standing on a face (the normal of
     /// that face is −y).
+    ///
+    /// ```ron
+    /// objects: [(shape: polyhedron(kind: dodecahedron, radius: 0.8), material: "glass")]
+    /// ```
     Polyhedron {
         kind: Polyhedron,
         #[serde(default = "one")]
         radius: f64,
     },
     /// A Wavefront OBJ file; the path is relative to the scene file.
+    ///
+    /// ```ron
+    /// objects: [(shape: mesh(path: "tree.obj", smooth: false, parts: { "leaves": "leaf" }), material: "bark")]
+    /// ```
     Mesh {
         path: String,
         #[serde(default)]
@@ -83,10 +121,20 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "NameMap::is_empty")]
         parts: NameMap<String>,
     },
+    /// Objects that are placed together.
+    ///
+    /// ```ron
+    /// objects: [(shape: group(objects: [(shape: sphere()), (shape: box())]), material: "glass")]
+    /// ```
     Group {
         objects: Vec<Object>,
     },
     /// A copy of an entry of `definitions`. Meshes are stored once however often they appear.
+    ///
+    /// ```ron
+    /// definitions: { "tree": (shape: mesh(path: "tree.obj"), material: "bark") },
+    /// objects: [(shape: instance(of: "tree"), transform: [scale(2)])]
+    /// ```
     Instance {
         of: String,
     },
@@ -94,6 +142,10 @@ pub enum Shape {
 }
 
 /// Copies of an object strewn over a surface, uniformly by area, from a seed.
+///
+/// ```ron
+/// objects: [(shape: scatter(of: ["blade"], over: "lawn", count: 5000, scale: (0.8, 1.2), max_slope_deg: 40, align: 0.5))]
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
@@ -123,6 +175,14 @@ pub struct Scatter {
     pub sink_m: f64,
 }
 
+/// ```ron
+/// objects: [
+///     (shape: polyhedron(kind: tetrahedron), material: "glass"),
+///     (shape: polyhedron(kind: cube), material: "glass"),
+///     (shape: polyhedron(kind: octahedron), material: "glass"),
+///     (shape: polyhedron(kind: icosahedron), material: "glass"),
+/// ]
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Polyhedron {

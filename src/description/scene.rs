@@ -5,6 +5,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene. Only `camera` has no default, and a file that is only included may leave it out too.
+///
+/// ```ron
+/// include: ["lib/glasses.ron"],
+/// camera: (eye: (0, 1, 5), target: (0, 1, 0)),
+/// background: (0.2, 0.3, 0.5),
+/// ambient: 0.05
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scene {

@@ -4,6 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The image. Width and height in pixels, 1 to 65536.
+///
+/// ```ron
+/// image: (width: 1920, height: 1080, exposure_ev: 0.5, png_bits: 16)
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Image {
@@ -27,10 +31,22 @@ impl Default for Image {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Antialiasing {
     /// One sample at the pixel's centre.
+    ///
+    /// ```ron
+    /// antialiasing: none
+    /// ```
     None,
     /// n × n samples on a regular grid; n from 1 to 64.
+    ///
+    /// ```ron
+    /// antialiasing: grid(3)
+    /// ```
     Grid(u32),
     /// Corner subdivision where neighbouring corners differ.
+    ///
+    /// ```ron
+    /// antialiasing: adaptive(threshold: 0.05, depth: 3)
+    /// ```
     Adaptive {
         /// Relative luminance contrast above which a cell is divided: (max − min) / (max + min + 2·floor); 0 to 1.
         #[serde(default = "default_threshold")]
@@ -40,6 +56,10 @@ pub enum Antialiasing {
         depth: u32,
     },
     /// One well-distributed sample a pixel and pass.
+    ///
+    /// ```ron
+    /// antialiasing: progressive
+    /// ```
     #[default]
     Progressive,
 }
@@ -53,6 +73,10 @@ fn default_depth() -> u32 {
 }
 
 /// How much is rendered.
+///
+/// ```ron
+/// render: (passes: 256, seed: 1, max_depth: 64)
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Render {

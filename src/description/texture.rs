@@ -11,6 +11,10 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Texture {
     /// A PNG, JPEG or EXR file; the path is relative to the scene file.
+    ///
+    /// ```ron
+    /// textures: { "label": image(path: "label.png", color_space: srgb, wrap: clamp, uv: (scale: (2, 2))) }
+    /// ```
     Image {
         path: String,
         #[serde(default)]
@@ -21,10 +25,22 @@ pub enum Texture {
         uv: UvMapping,
     },
     /// Squares in (u, v); `squares` of them along u and along v in [0, 1].
+    ///
+    /// ```ron
+    /// textures: { "floor": checker(a: 0.1, b: 0.8, squares: (8, 8)) }
+    /// ```
     Checker { a: Rgb, b: Rgb, squares: [f64; 2] },
     /// Cubes of side `size_m` in object space.
+    ///
+    /// ```ron
+    /// textures: { "blocks": checker3d(a: 0.1, b: 0.8, size_m: 0.25) }
+    /// ```
     Checker3d { a: Rgb, b: Rgb, size_m: f64 },
     /// Fractal (fBm) gradient noise; `size_m` is the size of its largest features.
+    ///
+    /// ```ron
+    /// textures: { "clouds": noise(a: (0.2, 0.4, 0.8), b: 1, size_m: 2, octaves: 6) }
+    /// ```
     Noise {
         a: Rgb,
         b: Rgb,
@@ -33,6 +49,10 @@ pub enum Texture {
         octaves: u32,
     },
     /// Veins: a sine along x, `size_m` apart, bent by noise.
+    ///
+    /// ```ron
+    /// textures: { "marble": marble(a: 0.9, b: 0.3, size_m: 0.5) }
+    /// ```
     Marble {
         a: Rgb,
         b: Rgb,
@@ -41,9 +61,17 @@ pub enum Texture {
         octaves: u32,
     },
     /// Rings around the y axis, `ring_m` wide, bent by noise.
+    ///
+    /// ```ron
+    /// textures: { "oak": wood(a: (0.5, 0.3, 0.15), b: (0.35, 0.2, 0.1), ring_m: 0.01) }
+    /// ```
     Wood { a: Rgb, b: Rgb, ring_m: f64 },
     /// Running bond in (u, v): mortar `a`, bricks `b`; `bricks` of them along u and rows along v in
     /// [0, 1]; `mortar` is the joint's share of a row's height, 0 to 0.5. As a bump map its edges are bevelled.
+    ///
+    /// ```ron
+    /// textures: { "wall": brick(a: 0.6, b: (0.5, 0.2, 0.1), bricks: (6, 12), mortar: 0.1) }
+    /// ```
     Brick {
         a: Rgb,
         b: Rgb,

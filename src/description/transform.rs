@@ -10,15 +10,29 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Transform {
+    /// Moves by (x, y, z), metres.
+    ///
+    /// ```ron
+    /// objects: [(shape: sphere(), transform: [translate((0, 1, 0))])]
+    /// ```
     Translate(Vector),
     /// One factor, or one an axis. Negative factors mirror; zero is refused.
+    ///
+    /// ```ron
+    /// objects: [(shape: sphere(), transform: [scale(2), scale((1, 2, -1))])]
+    /// ```
     Scale(Scale),
     /// Right-handed turn by `deg` degrees about `axis` through the origin.
-    Rotate {
-        axis: Vector,
-        deg: f64,
-    },
+    ///
+    /// ```ron
+    /// objects: [(shape: box(), transform: [rotate(axis: (0, 1, 0), deg: 45)])]
+    /// ```
+    Rotate { axis: Vector, deg: f64 },
     /// An affine matrix, three rows of four numbers.
+    ///
+    /// ```ron
+    /// objects: [(shape: box(), transform: [matrix(((1, 0, 0, 2), (0, 1, 0, 0), (0, 0.5, 1, 0)))])]
+    /// ```
     Matrix([[f64; 4]; 3]),
 }
 

@@ -37,6 +37,10 @@ pub enum Source {
 }
 
 /// A texture by name, its values multiplied by `scale`.
+///
+/// ```ron
+/// materials: { "dark": (diffuse: texture(name: "wood", scale: 0.5)) }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TextureRef {
