@@ -1,0 +1,166 @@
+//! Antialiasing: what each method costs and how near it comes, and features smaller than a pixel.
+
+use super::shot::{Picture, assert_close, shot};
+use terrarium::render::Aov;
+
+fn scene(antialiasing: &str) -> String {
+    format!(
+        r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 64, height: 48), antialiasing: {antialiasing},
+        textures: {{ "tiles": checker(a: 0.8, b: 0.2, squares: (12, 12)) }},
+        materials: {{ "floor": (diffuse: texture("tiles")), "red": (diffuse: (0.7, 0.2, 0.2)), "mirror": (reflection: 0.8, diffuse: 0.5) }},
+        lights: {{ "lamp": point(position: (-3, 6, 4), intensity: 120) }},
+        objects: [(shape: quad(size: (9, 9)), material: "floor"), (shape: sphere(radius: 0.5, center: (-0.6, 0.5, 0)), material: "mirror"),
+                  (shape: cone(radius: 0.4, height: 1.2), material: "red", transform: [translate((0.6, 0, 0.2))])])"#
+    )
+}
+
+fn rms(a: &Picture, b: &Picture) -> f64 {
+    let (a, b) = (a.grey(), b.grey());
+    (a.iter().zip(&b).map(|(x, y)| (x - y).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+}
+
+#[test]
+fn none_is_a_grid_of_one() {
+    assert!(shot(scene("none")).render().bits() == shot(scene("grid(1)")).render().bits());
+}
+
+/// With far fewer samples than grid(8), at least as near to the truth as grid(3).
+#[test]
+fn adaptive_is_as_good_as_a_grid_for_fewer_samples() {
+    let truth = shot(scene("grid(32)")).render();
+    let error = |a: &str| rms(&shot(scene(a)).render(), &truth);
+    let adaptive = shot(scene("adaptive(threshold: 0.03, depth: 4)")).render();
+    let (none, three, found) = (error("none"), error("grid(3)"), rms(&adaptive, &truth));
+    let samples = adaptive.rendered.stats.samples as f64 / (64.0 * 48.0);
+    println!("rms: none {none}, grid(3) {three}, adaptive {found} at {samples} samples a pixel");
+    assert!(three < none);
+    assert!(found < three);
+    assert!(samples < 64.0, "{samples}");
+    let progressive = rms(&shot(scene("progressive")).passes(256).render(), &truth);
+    assert!(progressive < three, "{progressive}");
+}
+
+/// Samples are drawn where there are edges, and nowhere else.
+#[test]
+fn the_edges_layer_is_dark_away_from_edges() {
+    // One black sphere before a glowing background: the only edge is its outline.
+    let picture = shot(
+        r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 64, height: 64), antialiasing: adaptive(),
+        background: 1, materials: { "black": () }, objects: [(shape: sphere(), material: "black")])"#,
+    )
+    .aovs(&[Aov::Edges, Aov::Samples])
+    .render();
+    let edges = picture.channel("edges", "Y");
+    let half = f64::to_radians(15.0).tan();
+    let outline = (1.0f64 / 24.0).sqrt() / half * 32.0;
+    let (mut near, mut seen) = (0, 0);
+    for (i, &e) in edges.iter().enumerate() {
+        let (x, y) = ((i % 64) as f64 - 31.5, (i / 64) as f64 - 31.5);
+        let off = (x.hypot(y) - outline).abs();
+        if off > 1.5 {
+            assert_eq!(e, 0.0, "pixel {i}, {off} pixels from the outline");
+        } else if off < 0.4 {
+            near += 1;
+            seen += usize::from(e > 0.0);
+        }
+    }
+    assert!(near > 50 && seen == near, "{seen} of {near}");
+}
+
+/// H45, S8: a ball of 0.3 pixels in the middle of a pixel is seen.
+#[test]
+fn a_ball_smaller_than_a_pixel_is_seen() {
+    let half = f64::to_radians(15.0).tan();
+    // 31 × 31: the centre of pixel (15, 15) is the middle of the image.
+    let pixel = 2.0 * half * 5.0 / 31.0;
+    let scene = |antialiasing: &str| {
+        shot(format!(
+            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 31, height: 31), antialiasing: {antialiasing},
+            materials: {{ "glow": (emission: 1) }}, objects: [(shape: sphere(radius: {}), material: "glow")])"#,
+            0.15 * pixel
+        ))
+        .render()
+    };
+    let expected = std::f64::consts::PI * 0.15f64.powi(2);
+    let adaptive = scene("adaptive(threshold: 0.05, depth: 5)");
+    assert_close(adaptive.at(15, 15), expected, 0.1);
+    assert_close(adaptive.mean(), expected / 961.0, 0.1);
+}
+
+/// H45, S8: a hard edge from 0 to 1e6 ends, within 4^depth cells a pixel, and whatever the exposure.
+#[test]
+fn hard_bright_edges_are_bounded_and_exposure_does_not_matter() {
+    let scene = |radiance: f64| {
+        shot(format!(
+            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32), antialiasing: adaptive(threshold: 0, depth: 4),
+            materials: {{ "glow": (emission: {radiance:e}) }}, objects: [(shape: sphere(), material: "glow")])"#
+        ))
+        .aovs(&[Aov::Samples])
+        .render()
+    };
+    let (bright, dim) = (scene(1e6), scene(1e-6));
+    for picture in [&bright, &dim] {
+        assert!(picture.channel("samples", "Y").iter().all(|&n| n <= 256.0));
+    }
+    assert_eq!(bright.rendered.stats.samples, dim.rendered.stats.samples);
+    for (a, b) in bright.grey().into_iter().zip(dim.grey()) {
+        assert!((a * 1e-12 - b).abs() <= 1e-6 * b);
+    }
+    // The disk of the sphere's outline, in pixels.
+    let radius = (1.0f64 / 24.0).sqrt() / f64::to_radians(15.0).tan() * 16.0;
+    assert_close(bright.mean() * 1024.0 / 1e6, std::f64::consts::PI * radius * radius, 2e-3);
+}
+
+/// H45: a wire that covers 1 % of its pixels has that mean.
+#[test]
+fn a_thin_wire_keeps_its_coverage() {
+    let half = f64::to_radians(15.0).tan();
+    let width = 2.0 * half * 5.0 / 32.0 * 0.01;
+    for (antialiasing, tolerance) in [("progressive", 0.1), ("grid(64)", 0.4)] {
+        let picture = shot(format!(
+            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32), antialiasing: {antialiasing},
+            materials: {{ "glow": (emission: 1) }},
+            objects: [(shape: box(size: ({width}, 9, 0.0001)), material: "glow", transform: [translate((0.01234, 0, 0))])])"#
+        ))
+        .passes(if antialiasing == "progressive" { 1024 } else { 1 })
+        .render();
+        assert_close(picture.mean() * 32.0, 0.01, tolerance);
+    }
+}
+
+/// Even surfaces are not divided, and cost what their corners and centres cost.
+#[test]
+fn an_even_picture_is_not_divided() {
+    let picture = shot(
+        r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 32, height: 32), antialiasing: adaptive(), background: 0.4)"#,
+    )
+    .aovs(&[Aov::Edges])
+    .render();
+    assert!(picture.channel("edges", "Y").iter().all(|&e| e == 0.0));
+    assert!(picture.grey().iter().all(|&x| x as f32 == 0.4));
+    // 32² centres and 33² corners.
+    assert_eq!(picture.rendered.stats.samples, 32 * 32 + 33 * 33);
+}
+
+/// The lens: a point out of focus is a disk of the right size and the same light.
+#[test]
+fn a_thin_lens_spreads_a_point_over_its_circle_of_confusion() {
+    let scene = |aperture: f64| {
+        shot(format!(
+            r#"(camera: (eye: (0, 0, 4), target: (0, 0, 0), fov_deg: 30, aperture_m: {aperture}, focus_m: 2), image: (width: 33, height: 33),
+            materials: {{ "glow": (emission: 1) }}, objects: [(shape: disk(radius: 0.02), material: "glow", transform: [rotate(axis: (1, 0, 0), deg: 90)])])"#
+        ))
+        .passes(1024)
+        .render()
+    };
+    let (sharp, soft) = (scene(0.0), scene(0.2));
+    assert_close(soft.mean(), sharp.mean(), 0.03);
+    // At distance 4 with focus at 2: the disk's diameter in the focal plane is 0.2·(4−2)/4 = 0.1.
+    let pixel = 2.0 * f64::to_radians(15.0).tan() * 2.0 / 33.0;
+    let radius = 0.05 / pixel;
+    for (i, value) in soft.grey().into_iter().enumerate() {
+        let off = ((i % 33) as f64 - 16.0).hypot((i / 33) as f64 - 16.0);
+        assert!(off <= radius + 1.2 || value == 0.0, "{value} at {off} pixels, radius {radius}");
+        assert!(off > radius - 1.2 || value > 0.0, "dark at {off} pixels, radius {radius}");
+    }
+}

@@ -1,0 +1,458 @@
+//! The same picture at every scale, far from the origin, mirrored; no acne, no leaks, no cracks.
+
+use super::meshes::{Obj, folder, icosphere};
+use super::shot::{Picture, agreement, assert_close, shot};
+use std::path::Path;
+use terrarium::description::{Format, load_str};
+use terrarium::math::DVec3;
+
+/// A scene of all shapes and lights with lengths times `s`, moved by `m`, mirrored in x where `flip` is −1.
+fn everything(s: f64, m: f64, flip: f64) -> String {
+    let at = |x: f64, y: f64, z: f64| format!("({:?}, {:?}, {:?})", flip * x * s + m, y * s + m, z * s + m);
+    let along = |x: f64, y: f64, z: f64| format!("({:?}, {:?}, {:?})", flip * x, y, z);
+    let edge = |x: f64, y: f64, z: f64| format!("({:?}, {:?}, {:?})", flip * x * s, y * s, z * s);
+    let place = |x: f64, y: f64, z: f64| {
+        format!(
+            "transform: [rotate(axis: (0, 1, 0), deg: 20), scale({:?}), scale(({flip}, 1, 1)), translate({})]",
+            s,
+            at(x, y, z)
+        )
+    };
+    // A quad light's front is edge_u × edge_v: mirrored, the edges change places.
+    let (u, v) = (edge(1.0, 0.0, 0.0), edge(0.0, 0.2, 1.0));
+    let (u, v) = if flip < 0.0 { (v, u) } else { (u, v) };
+    format!(
+        r#"(
+    camera: (eye: {eye}, target: {target}, fov_deg: 42),
+    image: (width: 40, height: 30),
+    antialiasing: none,
+    textures: {{
+        "tiles": checker(a: 0.8, b: 0.3, squares: (9, 7)),
+        "stone": marble(a: 0.8, b: 0.2, size_m: 0.4),
+        "bricks": brick(a: 0, b: 1, bricks: (6, 9)),
+        "normals": image(path: "normals.exr"),
+    }},
+    materials: {{
+        "floor": (diffuse: texture("tiles")),
+        "stone": (diffuse: texture("stone"), specular: 0.2, shininess: 30),
+        "bumpy": (diffuse: 0.7, normal_map: (texture: "normals")),
+        "mirror": (reflection: 0.9),
+        "glass": (transmission: 1, ior: 1.5),
+        "layered": (diffuse: 0.5, reflection: 0.2, transmission: 0.5),
+    }},
+    lights: {{
+        "ball": sphere(center: {ball}, radius: {radius}, radiance: 20),
+        "panel": quad(corner: {panel}, edge_u: {u}, edge_v: {v}, radiance: 4, samples: 4),
+        "sun": directional(direction: {sun}, irradiance: 0.5),
+        "sky": environment(map: gradient(zenith: 0.4, horizon: 0.2, nadir: 0.05), samples: 4),
+    }},
+    objects: [
+        (shape: quad(size: (12, 12)), material: "floor", {p0}),
+        (shape: sphere(radius: 0.5), material: "bumpy", {p1}),
+        (shape: box(), material: "stone", {p2}),
+        (shape: cone(radius: 0.5), material: "stone", {p3}),
+        (shape: cylinder(radius: 0.4), material: "mirror", {p4}),
+        (shape: polyhedron(kind: icosahedron, radius: 0.5), material: "glass", {p5}),
+        (shape: mesh(path: "ball.obj"), material: "layered", {p6}),
+        (shape: mesh(path: "ball.obj", smooth: false), material: "bumpy", {p7}),
+        (shape: box(), material: "glass", {p8}),
+    ],
+)"#,
+        eye = at(1.5, 3.0, 7.0),
+        target = at(0.1, 0.4, 0.0),
+        ball = at(-3.0, 5.0, 2.0),
+        radius = 0.5 * s,
+        panel = at(2.0, 4.0, -1.0),
+        sun = along(1.0, -2.0, -0.5),
+        p0 = place(0.0, 0.0, 0.0),
+        p1 = place(-2.0, 0.5, 1.0),
+        p2 = place(-0.8, 0.5, -1.0),
+        p3 = place(0.7, 0.0, 1.2),
+        p4 = place(1.9, 0.0, -0.7),
+        p5 = place(0.2, 0.6, 2.2),
+        p6 = place(-1.2, 1.0, 2.2),
+        p7 = place(1.8, 1.0, 1.4),
+        p8 = place(-3.0, 0.5, -1.5),
+    )
+}
+
+fn assets() -> tempfile::TempDir {
+    let dir = folder();
+    icosphere(2).scaled(0.5).write(&dir.path().join("ball.obj"));
+    super::meshes::write_exr(&dir.path().join("normals.exr"), 8, 8, |x, y| {
+        [[0.35, 0.5, 0.7][(x + 2 * y) % 3], [0.6, 0.4][y % 2], 0.95]
+    });
+    dir
+}
+
+fn render_everything(folder: &Path, s: f64, m: f64, flip: f64) -> Picture {
+    let picture = shot(everything(s, m, flip)).folder(folder).render();
+    assert!(picture.is_sound());
+    assert!(picture.mean() > 0.05);
+    picture
+}
+
+/// H36: lengths times s, radiance and irradiance the same.
+#[test]
+fn the_picture_is_the_same_at_every_scale() {
+    let dir = assets();
+    let one = render_everything(dir.path(), 1.0, 0.0, 1.0);
+    for s in [1e-4, 0.03, 1e4] {
+        let share = agreement(&one, &render_everything(dir.path(), s, 0.0, 1.0), 1e-4);
+        println!("scale {s:e}: {share}");
+        assert!(share >= 0.999, "at scale {s:e} only {share} of the pixels agree");
+    }
+}
+
+/// H1: moved by a thousand and by a million metres along all axes.
+#[test]
+fn the_picture_is_the_same_far_from_the_origin() {
+    let dir = assets();
+    let one = render_everything(dir.path(), 1.0, 0.0, 1.0);
+    for m in [1e3, -1e6] {
+        let share = agreement(&one, &render_everything(dir.path(), 1.0, m, 1.0), 1e-4);
+        println!("moved by {m:e}: {share}");
+        assert!(share >= 0.999, "moved by {m:e} only {share} of the pixels agree");
+    }
+}
+
+/// H24: glass, meshes, normal maps and solid textures included. Light samples differ, so a single
+/// directional light and point-like sampling noise aside, means over passes are compared.
+#[test]
+fn a_mirrored_scene_is_the_mirrored_picture() {
+    let dir = assets();
+    let render = |flip: f64| shot(everything(1.0, 0.0, flip)).folder(dir.path()).passes(512).render();
+    let (one, other) = (render(1.0), render(-1.0));
+    let (w, h) = (one.width(), one.height());
+    let mut bad = 0;
+    for y in 0..h {
+        for x in 0..w {
+            let (a, b) = (one.at(x, y), other.at(w - 1 - x, y));
+            bad += usize::from((a - b).abs() > 0.03 * a.max(b) + 0.005);
+        }
+    }
+    println!("{bad} of {} differ", w * h);
+    assert_close(one.mean(), other.mean(), 2e-3);
+    assert!(bad <= w * h / 200, "{bad} of {} pixels differ", w * h);
+}
+
+/// H23: a scaled sphere is lit as the ellipsoid that it is: E = n·s, with n from the gradient.
+#[test]
+fn a_scaled_sphere_has_the_normals_of_its_ellipsoid() {
+    let picture = shot(
+        r#"(camera: (eye: (0, 0, 60), target: (0, 0, 0), fov_deg: 4), image: (width: 41, height: 41), antialiasing: none,
+        materials: { "white": (diffuse: 1) }, lights: { "sun": directional(direction: (-1, -2, -2), irradiance: 3) },
+        objects: [(shape: sphere(), material: "white", transform: [scale((2, 1, 0.5))])])"#,
+    )
+    .render();
+    let half = f64::to_radians(2.0).tan();
+    let (mut lit, sun) = (0, DVec3::new(1.0, 2.0, 2.0) / 3.0);
+    for y in 0..41 {
+        for x in 0..41 {
+            let at = |k: usize| ((k as f64 + 0.5) / 41.0 * 2.0 - 1.0) * half;
+            let (o, d) = (DVec3::new(0.0, 0.0, 60.0), DVec3::new(at(x), -at(y), -1.0));
+            let inverse = DVec3::new(0.5, 1.0, 2.0);
+            let (o1, d1) = (o * inverse, d * inverse);
+            let (a, b, c) = (d1.dot(d1), o1.dot(d1), o1.dot(o1) - 1.0);
+            let expected = if b * b < a * c {
+                0.0
+            } else {
+                let p = o + d * ((-b - (b * b - a * c).sqrt()) / a);
+                let n = (p * inverse * inverse).normalize();
+                3.0 * n.dot(sun).max(0.0) / std::f64::consts::PI
+            };
+            lit += usize::from(expected > 0.0);
+            assert!((picture.at(x, y) - expected).abs() < 1e-5, "({x}, {y}): {} for {expected}", picture.at(x, y));
+        }
+    }
+    assert!(lit > 300);
+}
+
+/// H25: what flattens an object is refused, with its place in the scene.
+#[test]
+fn a_flattening_transform_is_refused() {
+    for bad in ["scale((0, 1, 1))", "scale(0)", "matrix(((1, 2, 0, 0), (2, 4, 0, 0), (0, 0, 1, 0)))", "scale((1, 1e-40, 1))"] {
+        let scene = format!(
+            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), materials: {{ "white": (diffuse: 1) }},
+            objects: [(shape: sphere(), material: "white", transform: [{bad}])])"#
+        );
+        let report = load_str(&scene, Format::Ron, Path::new(""), &[]).expect_err(bad);
+        assert!(format!("{report:?}").contains("transform"), "{report:?}");
+    }
+}
+
+/// H25: very small and very large, but not flat: rendered, and the same picture.
+#[test]
+fn extreme_uniform_scales_are_no_flattening() {
+    let scene = |s: f64| {
+        shot(format!(
+            r#"(camera: (eye: (0, {s:e}, {:e}), target: (0, 0, 0)), image: (width: 9, height: 9), antialiasing: none,
+            materials: {{ "white": (diffuse: 1) }}, lights: {{ "sun": directional(direction: (-1, -2, -2), irradiance: 3) }},
+            objects: [(shape: sphere(), material: "white", transform: [scale({s:e})])])"#,
+            4.0 * s
+        ))
+        .render()
+    };
+    let one = scene(1.0);
+    for s in [1e-12, 1e12] {
+        assert_eq!(agreement(&one, &scene(s), 1e-4), 1.0, "{s:e}");
+    }
+}
+
+/// H4: a planet for ground: horizon at √(2h/r) below the horizontal, and contact shadows.
+#[test]
+fn a_planet_has_its_horizon_and_contact_shadows() {
+    let planet = r#"(shape: sphere(radius: 1e6, center: (0, -1e6, 0)), material: "white")"#;
+    let horizon = shot(format!(
+        r#"(camera: (eye: (0, 1.7, 0), target: (0, 1.7, -1), fov_deg: 0.4), image: (width: 1, height: 4000), antialiasing: none,
+        background: 5, materials: {{ "white": (diffuse: 1) }}, objects: [{planet}])"#
+    ))
+    .render();
+    let sky = horizon.grey().iter().filter(|x| **x == 5.0).count();
+    let half = f64::to_radians(0.2).tan();
+    let below = (sky as f64 / 4000.0 * 2.0 - 1.0) * half;
+    assert_close(below, (2.0 * 1.7 / 1e6f64).sqrt(), 0.01);
+
+    // Sun overhead at 45°: the shadow of a ball of radius 0.5 that rests at the origin.
+    let contact = shot(format!(
+        r#"(camera: (eye: (0, 12, 0.01), target: (0, 0, 0), fov_deg: 20), image: (width: 60, height: 60), antialiasing: none,
+        materials: {{ "white": (diffuse: 1), "black": () }}, lights: {{ "sun": directional(direction: (1, -1, 0), irradiance: 1) }},
+        objects: [{planet}, (shape: sphere(radius: 0.5, center: (0, 0.5, 0)), material: "black")])"#
+    ))
+    .render();
+    let lit = 0.5f64.sqrt() / std::f64::consts::PI;
+    let (mut shadow, mut ground) = (0, 0);
+    let half = f64::to_radians(10.0).tan() * 12.0;
+    for y in 0..60 {
+        for x in 0..60 {
+            let at = |k: usize| ((k as f64 + 0.5) / 30.0 - 1.0) * half;
+            let (px, pz) = (at(x), at(y));
+            // Distance of the ball's centre from the ray towards the sun, and from the eye's ray.
+            let from = DVec3::new(px, 0.0, pz);
+            let to_sun = DVec3::new(-1.0, 1.0, 0.0).normalize();
+            let apart = |o: DVec3, d: DVec3| (DVec3::new(0.0, 0.5, 0.0) - o).cross(d).length();
+            let seen = apart(from, (DVec3::new(0.0, 12.0, 0.01) - from).normalize());
+            let lit_by = apart(from, to_sun);
+            if (seen - 0.5).abs() < 0.03 || (lit_by - 0.5).abs() < 0.03 {
+                continue;
+            }
+            let expected = if seen < 0.5 || (lit_by < 0.5 && px > -0.5) { 0.0 } else { lit };
+            shadow += usize::from(seen > 0.5 && expected == 0.0);
+            ground += usize::from(expected > 0.0);
+            assert!((contact.at(x, y) - expected).abs() < 1e-4, "({x}, {y}): {} for {expected}", contact.at(x, y));
+        }
+    }
+    assert!(shadow > 40 && ground > 2000, "{shadow}, {ground}");
+}
+
+/// The lit side of convex objects, down to grazing light, pixel by pixel in closed form: no acne.
+#[test]
+fn lit_sides_have_no_black_speckle() {
+    for s in [1e-4, 1.0, 1e4] {
+        for (dx, dy, dz) in [(1.0, 0.0, 0.0), (0.9, 0.1, -0.4), (0.0, 1.0, 0.02)] {
+            let sun = DVec3::new(dx, dy, dz).normalize();
+            let picture = shot(format!(
+                r#"(camera: (eye: (0, 0, {}), target: (0, 0, 0), fov_deg: 24), image: (width: 64, height: 64), antialiasing: none,
+                materials: {{ "white": (diffuse: 1) }}, lights: {{ "sun": directional(direction: ({}, {}, {}), irradiance: 1) }},
+                objects: [(shape: sphere(radius: {s}), material: "white")])"#,
+                5.0 * s, -sun.x, -sun.y, -sun.z
+            ))
+            .render();
+            let half = f64::to_radians(12.0).tan();
+            for y in 0..64 {
+                for x in 0..64 {
+                    let at = |k: usize| ((k as f64 + 0.5) / 32.0 - 1.0) * half;
+                    let (o, d) = (DVec3::new(0.0, 0.0, 5.0), DVec3::new(at(x), -at(y), -1.0));
+                    let (a, b, c) = (d.dot(d), o.dot(d), 24.0);
+                    let expected = if b * b < a * c {
+                        0.0
+                    } else {
+                        (o + d * ((-b - (b * b - a * c).sqrt()) / a)).dot(sun).max(0.0) / std::f64::consts::PI
+                    };
+                    assert!((picture.at(x, y) - expected).abs() < 1e-5, "({x}, {y}) at {s}: {} for {expected}", picture.at(x, y));
+                }
+            }
+        }
+    }
+}
+
+/// Convex shapes of every kind under a sky and nothing else: E = π L everywhere on their upper parts
+/// whose horizon is free. A single missed or doubled hit shows as a speckle.
+#[test]
+fn faces_lit_at_a_grazing_angle_have_no_speckle() {
+    let dir = folder();
+    super::meshes::cube().scaled(0.5).write(&dir.path().join("cube.obj"));
+    for shape in ["box()", r#"mesh(path: "cube.obj", smooth: false)"#, "polyhedron(kind: cube, radius: 0.8660254037844386)"] {
+        for s in [1e-4, 1.0, 1e4] {
+            // Seen from above: the top face, and the sun a tenth of a degree above its plane.
+            let scene = format!(
+                r#"(camera: (eye: (0, {e}, 0), target: (0, 0, 0), up: (0, 0, 1), fov_deg: 10), image: (width: 40, height: 40), antialiasing: none,
+                materials: {{ "white": (diffuse: 1) }}, lights: {{ "sun": directional(direction: (3, {slope}, 2), irradiance: 1) }},
+                objects: [(shape: {shape}, material: "white", transform: [rotate(axis: (0, 1, 0), deg: 17), scale({s})])])"#,
+                e = 4.0 * s,
+                slope = -(13f64.sqrt()) * f64::to_radians(0.1).tan(),
+            );
+            let picture = shot(scene).folder(dir.path()).render();
+            let expected = f64::to_radians(0.1).sin() / std::f64::consts::PI;
+            for value in picture.grey() {
+                assert!((value / expected - 1.0).abs() < 1e-3, "{shape} at {s}: {value} for {expected}");
+            }
+        }
+    }
+}
+
+/// Spheres resting on a plane: no light below them, at any scale.
+#[test]
+fn no_light_leaks_below_a_resting_sphere() {
+    for s in [1e-4, 1.0, 1e4] {
+        // Looking from below through nothing: the eye just above the floor near the contact point.
+        let picture = shot(format!(
+            r#"(camera: (eye: ({}, {}, 0), target: (0, 0, 0), fov_deg: 8), image: (width: 32, height: 32), antialiasing: none,
+            materials: {{ "white": (diffuse: 1), "black": () }}, lights: {{ "sun": directional(direction: (0, -1, 0), irradiance: 1) }},
+            objects: [(shape: quad(size: ({}, {})), material: "white"), (shape: sphere(radius: {s}), material: "black", transform: [translate((0, {s}, 0))])])"#,
+            0.3 * s, 0.01 * s, 9.0 * s, 9.0 * s
+        ))
+        .render();
+        assert!(picture.grey().iter().all(|&x| x == 0.0), "light at scale {s}");
+    }
+}
+
+/// H20: a smooth coarse mesh is not black where its smooth normals are lit, and nears the sphere.
+#[test]
+fn smooth_meshes_have_no_shadow_terminator() {
+    let dir = folder();
+    let view = |shape: &str| {
+        shot(format!(
+            r#"(camera: (eye: (0, 0, 9), target: (0, 0, 0), fov_deg: 13), image: (width: 64, height: 64), antialiasing: none,
+            materials: {{ "white": (diffuse: 1) }}, lights: {{ "sun": directional(direction: (-1, 0, 0), irradiance: 3.1415926535) }},
+            objects: [(shape: {shape}, material: "white", transform: [rotate(axis: (1, 2, 3), deg: 10)])])"#
+        ))
+        .folder(dir.path())
+        .render()
+    };
+    let sphere = view("sphere()");
+    let errors: Vec<f64> = (1..4)
+        .map(|n| {
+            let name = format!("ball{n}.obj");
+            icosphere(n).write(&dir.path().join(&name));
+            let mesh = view(&format!(r#"mesh(path: "{name}")"#));
+            let (mut sum, mut count) = (0.0, 0);
+            for (i, (a, b)) in sphere.grey().iter().zip(mesh.grey()).enumerate() {
+                let (x, y) = ((i % 64) as f64 - 31.5, (i / 64) as f64 - 31.5);
+                if x.hypot(y) > 24.0 {
+                    continue;
+                }
+                assert!(*a <= 0.05 || b > 0.0, "black at {i} with {n} subdivisions, where the sphere shows {a}");
+                sum += (a - b).abs();
+                count += 1;
+            }
+            sum / f64::from(count)
+        })
+        .collect();
+    println!("errors {errors:?}");
+    assert!(errors[0] > 3.0 * errors[1] && errors[1] > 3.0 * errors[2], "{errors:?}");
+}
+
+/// A plane of two triangles, normals tilted by 45° towards +x; seen from above.
+fn tilted_plane() -> Obj {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    Obj {
+        vertices: corners.map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec(),
+        normals: vec![DVec3::new(1.0, 1.0, 0.0).normalize(); 4],
+        faces: vec![vec![0, 3, 2, 1]],
+    }
+}
+
+/// H21: tilted normals do not let light through from behind, not even at the border.
+#[test]
+fn tilted_normals_let_no_light_through() {
+    let dir = folder();
+    tilted_plane().write(&dir.path().join("plane.obj"));
+    for light in [
+        "directional(direction: (-1, 0.5, 0), irradiance: 1)",
+        "directional(direction: (-1, 0.01, 0.3), irradiance: 1)",
+        "point(position: (3, -0.5, 0), intensity: 9)",
+        "point(position: (1.5, -0.001, 0), intensity: 9)",
+        "sphere(center: (2, -0.6, 0), radius: 0.5, radiance: 9, visible: false)",
+    ] {
+        let picture = shot(format!(
+            r#"(camera: (eye: (0, 3, 0), target: (0, 0, 0), up: (0, 0, 1), fov_deg: 40), image: (width: 65, height: 65), antialiasing: none,
+            materials: {{ "white": (diffuse: 1) }}, lights: {{ "lamp": {light} }},
+            objects: [(shape: mesh(path: "plane.obj"), material: "white")])"#
+        ))
+        .folder(dir.path())
+        .passes(4)
+        .render();
+        let lit = picture.grey().iter().filter(|x| **x != 0.0).count();
+        assert_eq!(lit, 0, "{light} from behind lights {lit} pixels");
+    }
+}
+
+/// H5: an even sky seen from inside a closed black mesh through its triangles' edges: nothing.
+#[test]
+fn closed_meshes_have_no_cracks() {
+    let dir = folder();
+    icosphere(4).write(&dir.path().join("ball.obj"));
+    for place in ["scale(1)", "scale((1e-3, 1e3, 1))", "scale(2), translate((148376, 1234, -223423))"] {
+        let eye = if place.contains("148376") { "(148376, 1234, -223423)" } else { "(0, 0, 0)" };
+        let target = if place.contains("148376") { "(148376.3, 1234.1, -223422)" } else { "(0.3, 0.1, 1)" };
+        let picture = shot(format!(
+            r#"(camera: (eye: {eye}, target: {target}, fov_deg: 150), image: (width: 200, height: 200), antialiasing: none,
+            background: 1, materials: {{ "black": () }},
+            objects: [(shape: mesh(path: "ball.obj"), material: "black", transform: [{place}])])"#
+        ))
+        .folder(dir.path())
+        .render();
+        assert_eq!(picture.mean(), 0.0, "{place}");
+    }
+}
+
+/// H10, H11: degenerate triangles change nothing and are told of.
+#[test]
+fn degenerate_triangles_change_nothing() {
+    let dir = folder();
+    let ball = icosphere(2);
+    ball.write(&dir.path().join("sound.obj"));
+    let mut broken = ball;
+    let n = broken.vertices.len();
+    for i in 0..1000 {
+        let (a, b) = (i % n, (i * 7 + 1) % n);
+        broken.faces.push(if i % 2 == 0 { vec![a, a, b] } else { vec![a, b, b] });
+    }
+    broken.write(&dir.path().join("broken.obj"));
+    let view = |name: &str| {
+        shot(format!(
+            r#"(camera: (eye: (0, 2, 4), target: (0, 0, 0)), image: (width: 32, height: 32), antialiasing: none,
+            materials: {{ "white": (diffuse: 1), "glass": (transmission: 1) }}, lights: {{ "sun": directional(direction: (-1, -1, -1), irradiance: 1) }},
+            objects: [(shape: mesh(path: "{name}"), material: "white"), (shape: mesh(path: "{name}"), material: "glass", transform: [translate((1.5, 0, 0))])])"#
+        ))
+        .folder(dir.path())
+        .render()
+    };
+    let (sound, broken) = (view("sound.obj"), view("broken.obj"));
+    assert!(sound.bits() == broken.bits());
+    let warnings = &broken.rendered.warnings;
+    assert!(warnings.iter().any(|w| w.contains("1000") || w.contains("1,000")), "{warnings:?}");
+}
+
+/// H11: zero and missing normals: shaded flat, finite.
+#[test]
+fn zero_normals_are_shaded_flat() {
+    let dir = folder();
+    let mut ball = icosphere(1);
+    ball.normals.iter_mut().for_each(|n| *n = DVec3::ZERO);
+    ball.write(&dir.path().join("ball.obj"));
+    let view = |smooth: bool| {
+        shot(format!(
+            r#"(camera: (eye: (0, 2, 4), target: (0, 0, 0)), image: (width: 32, height: 32), antialiasing: none,
+            materials: {{ "white": (diffuse: 1) }}, lights: {{ "sun": directional(direction: (-1, -1, -1), irradiance: 1) }},
+            objects: [(shape: mesh(path: "ball.obj", smooth: {smooth}), material: "white")])"#
+        ))
+        .folder(dir.path())
+        .render()
+    };
+    let (zero, flat) = (view(true), view(false));
+    assert!(zero.is_sound());
+    assert!(flat.mean() > 0.02);
+    assert!(agreement(&zero, &flat, 1e-5) > 0.995);
+}
