@@ -1,0 +1,17 @@
+//! All tests of the program and library as a user sees them, in one binary: linking is most of what
+//! a test file costs. `cargo test --release --test all render::light` runs one theme.
+
+mod assets;
+mod command_line;
+mod guide;
+mod layers;
+mod makefile;
+mod messages;
+#[path = "obj/main.rs"]
+mod obj;
+mod output;
+#[path = "render/main.rs"]
+mod render;
+mod scene_files;
+mod shapes;
+mod textures;
