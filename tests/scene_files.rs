@@ -22,7 +22,7 @@ fn full_scene(overrides: &[&str]) -> Scene {
 }
 
 fn refused(overrides: &[&str]) -> Vec<String> {
-    let report = full(FULL_RON, Format::Ron, overrides).err().expect("the override is wrong");
+    let report = full(FULL_RON, Format::Ron, overrides).expect_err("the override is wrong");
     report.diagnostics.iter().map(|d| d.headline()).collect()
 }
 
@@ -285,7 +285,7 @@ fn wrong_includes_are_reported_where_they_are() {
     );
     write(temp.path(), "b.toml", "include = [\"a.ron\", \"main.ron\"]\nmaterials = 3\n");
     write(temp.path(), "bad.ron", "(materials: {");
-    let report = load(&main, &[]).err().expect("nearly everything is wrong");
+    let report = load(&main, &[]).expect_err("nearly everything is wrong");
     assert_eq!(report.exit_code(), 2);
     let found: Vec<String> = report.diagnostics.iter().map(|d| d.headline()).collect();
     let (m, a, b) = (at("main.ron"), at("a.ron"), at("b.toml"));
@@ -310,12 +310,12 @@ fn wrong_includes_are_reported_where_they_are() {
 
 #[test]
 fn files_that_cannot_be_read_are_io_errors() {
-    let missing = load(Path::new("no/such/scene.ron"), &[]).err().expect("there is no such file");
+    let missing = load(Path::new("no/such/scene.ron"), &[]).expect_err("there is no such file");
     assert_eq!(missing.exit_code(), 3);
     let temp = tempfile::tempdir().expect("a folder can be made");
     let latin = temp.path().join("latin.toml");
     std::fs::write(&latin, b"# one\n# caf\xe9\n").expect("a file can be written");
-    let report = load(&latin, &[]).err().expect("it is not UTF-8");
+    let report = load(&latin, &[]).expect_err("it is not UTF-8");
     assert_eq!(report.exit_code(), 2);
     assert_eq!(
         report.diagnostics[0].headline(),
@@ -324,7 +324,7 @@ fn files_that_cannot_be_read_are_io_errors() {
     let lost = format!(
         "({CAMERA}, objects: [(shape: mesh(path: \"tre.obj\"), material: \"m\")], materials: {{ \"m\": () }})"
     );
-    let report = load_str(&lost, Format::Ron, &folder(), &[]).err().expect("the mesh is missing");
+    let report = load_str(&lost, Format::Ron, &folder(), &[]).expect_err("the mesh is missing");
     assert_eq!(report.exit_code(), 3);
     let message = format!(
         "`{}` cannot be read: there is no such file; did you mean `tree.obj`?",
@@ -412,7 +412,7 @@ fn scenes_with_random_bytes_are_read_without_panic() {
 fn deep_nesting_is_refused() {
     for open in ["(", "[", "{\"a\":", "a(", "(a:", "Some(", "/*"] {
         let report =
-            load_str(&open.repeat(100_000), Format::Ron, Path::new(""), &[]).err().expect("it is too deep");
+            load_str(&open.repeat(100_000), Format::Ron, Path::new(""), &[]).expect_err("it is too deep");
         assert_eq!(report.exit_code(), 2, "{open}");
     }
     for text in [

@@ -43,7 +43,7 @@ pub struct Diagnostic {
     pub argument: Option<String>,
     /// The line of the source, for display.
     #[serde(skip)]
-    pub(crate) excerpt: Option<String>,
+    pub(crate) excerpt: Option<Excerpt>,
     /// Source and offset, for sorting.
     #[serde(skip)]
     pub(crate) order: (usize, usize),
@@ -101,10 +101,9 @@ impl Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.headline())?;
-        if let (Some(line), Some(column), Some(excerpt)) = (self.line, self.column, &self.excerpt) {
-            let (shown, caret) = window(excerpt, column as usize - 1);
+        if let (Some(line), Some(Excerpt { text, caret })) = (self.line, &self.excerpt) {
             let gutter = " ".repeat(line.to_string().len());
-            write!(f, "\n {line} | {shown}\n {gutter} | {}^", " ".repeat(caret))?;
+            write!(f, "\n {line} | {text}\n {gutter} | {}^", " ".repeat(*caret))?;
         }
         match &self.help {
             Some(help) => write!(f, "\n  help: {help}"),
@@ -113,12 +112,20 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// At most 100 characters of a line around a column, tabs as spaces; and where the column is in them.
-fn window(line: &str, column: usize) -> (String, usize) {
-    let from = column.saturating_sub(70);
-    let shown: String =
-        line.chars().skip(from).take(100).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    (shown, column - from)
+/// At most 100 characters of a line, and where in them the mistake is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Excerpt {
+    text: String,
+    caret: usize,
+}
+
+impl Excerpt {
+    /// Of the line around `column` (characters, from 0); tabs are shown as spaces.
+    pub fn of(line: &str, column: usize) -> Excerpt {
+        let from = column.saturating_sub(70);
+        let shown = line.chars().skip(from).take(100);
+        Excerpt { text: shown.map(|c| if c.is_control() { ' ' } else { c }).collect(), caret: column - from }
+    }
 }
 
 /// Everything that is wrong with a scene: errors first, each group in the order of the files.
@@ -128,6 +135,9 @@ pub struct Report {
 }
 
 impl Report {
+    /// After so many diagnostics of one stage the rest is left out.
+    pub(crate) const MOST: usize = 1000;
+
     pub(crate) fn new(mut diagnostics: Vec<Diagnostic>) -> Report {
         diagnostics.sort_by_key(|d| (d.severity, d.order));
         Report { diagnostics }
@@ -146,6 +156,12 @@ impl Report {
 impl From<Diagnostic> for Report {
     fn from(diagnostic: Diagnostic) -> Report {
         Report { diagnostics: vec![diagnostic] }
+    }
+}
+
+impl From<Box<Diagnostic>> for Report {
+    fn from(diagnostic: Box<Diagnostic>) -> Report {
+        Report::from(*diagnostic)
     }
 }
 

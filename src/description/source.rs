@@ -1,7 +1,7 @@
 //! The texts that a scene is read from: files, standard input, `--set` arguments.
 
 use super::Format;
-use super::diagnostic::{Diagnostic, Kind, Severity};
+use super::diagnostic::{Diagnostic, Excerpt, Kind, Severity};
 use super::tree::Span;
 use std::path::{Path, PathBuf};
 
@@ -20,31 +20,37 @@ pub(crate) struct Source {
 }
 
 #[derive(Default)]
-pub(crate) struct Sources(Vec<Source>);
+pub(crate) struct Sources {
+    sources: Vec<Source>,
+    /// Where each line of each source starts.
+    lines: Vec<Vec<usize>>,
+}
 
 impl Sources {
     pub fn add(&mut self, source: Source) -> usize {
-        self.0.push(source);
-        self.0.len() - 1
+        let newlines = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        self.lines.push(std::iter::once(0).chain(newlines.map(|(i, _)| i + 1)).collect());
+        self.sources.push(source);
+        self.sources.len() - 1
     }
 
     pub fn get(&self, index: usize) -> &Source {
-        &self.0[index]
+        &self.sources[index]
     }
 
     /// Bytes of each text.
     pub fn sizes(&self) -> impl Iterator<Item = usize> {
-        self.0.iter().map(|source| source.text.len())
+        self.sources.iter().map(|source| source.text.len())
     }
 
     pub fn files(&self) -> Vec<PathBuf> {
-        self.0.iter().filter_map(|source| source.file.clone()).collect()
+        self.sources.iter().filter_map(|source| source.file.clone()).collect()
     }
 
     /// A diagnostic that points at `span`.
     pub fn diagnostic(&self, severity: Severity, kind: Kind, span: Span, message: String) -> Diagnostic {
         let source = self.get(span.source);
-        let (line, column, text) = position(&source.text, span.start);
+        let (line, column, text) = self.position(span);
         Diagnostic {
             severity,
             kind,
@@ -55,15 +61,30 @@ impl Sources {
             message,
             help: None,
             argument: source.argument.then(|| source.text.clone()),
-            excerpt: (!source.argument).then(|| text.to_owned()),
+            excerpt: (!source.argument).then(|| Excerpt::of(text, column as usize - 1)),
             order: (span.source, span.start),
         }
+    }
+
+    /// Line and column (from 1, in characters) of a span's start, and the line's text.
+    fn position(&self, span: Span) -> (u32, u32, &str) {
+        let text = &self.get(span.source).text;
+        let lines = &self.lines[span.source];
+        let mut offset = span.start.min(text.len());
+        while !text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = lines.partition_point(|start| *start <= offset);
+        let start = lines[line - 1];
+        let end = lines.get(line).map_or(text.len(), |next| next - 1);
+        let column = text[start..offset].chars().count() + 1;
+        (line as u32, column as u32, text[start..end].trim_end_matches('\r'))
     }
 
     /// `file:line:column` of a span, for messages that name a second place.
     pub fn place(&self, span: Span) -> String {
         let source = self.get(span.source);
-        let (line, column, _) = position(&source.text, span.start);
+        let (line, column, _) = self.position(span);
         match (&source.file, source.argument) {
             (_, true) => format!("--set {}", source.text),
             (Some(file), _) => format!("{}:{line}:{column}", file.display()),
@@ -72,23 +93,10 @@ impl Sources {
     }
 }
 
-/// Line and column (from 1, in characters) of a byte offset, and the line's text.
-pub(crate) fn position(text: &str, offset: usize) -> (u32, u32, &str) {
-    let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    let start = text[..offset].rfind('\n').map_or(0, |newline| newline + 1);
-    let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
-    let line = text[..start].bytes().filter(|&b| b == b'\n').count() + 1;
-    let column = text[start..offset].chars().count() + 1;
-    (line as u32, column as u32, text[start..end].trim_end_matches('\r'))
-}
-
 /// Reads a scene file's text: at most `MAX_FILE_BYTES` of UTF-8, without a byte order mark.
-pub(crate) fn read(path: &Path) -> Result<String, Diagnostic> {
+pub(crate) fn read(path: &Path) -> Result<String, Box<Diagnostic>> {
     let io = |error: &dyn std::fmt::Display| {
-        Diagnostic::of_file(path, Kind::Io, format!("cannot be read: {error}"))
+        Box::new(Diagnostic::of_file(path, Kind::Io, format!("cannot be read: {error}")))
     };
     let size = std::fs::metadata(path).map_err(|e| io(&e))?;
     if size.is_dir() {
@@ -109,11 +117,12 @@ pub(crate) fn read(path: &Path) -> Result<String, Diagnostic> {
         Err(error) => {
             let at = error.utf8_error().valid_up_to();
             let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-            let (line, column, _) = position(&valid, at);
+            let line = valid.matches('\n').count() + 1;
+            let column = valid.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
             let mut diagnostic =
                 Diagnostic::of_file(path, Kind::Invalid, format!("byte {at} is not valid UTF-8"));
-            (diagnostic.line, diagnostic.column) = (Some(line), Some(column));
-            Err(diagnostic)
+            (diagnostic.line, diagnostic.column) = (Some(line as u32), Some(column as u32));
+            Err(Box::new(diagnostic))
         }
     }
 }
@@ -125,7 +134,11 @@ pub(crate) fn without_mark(text: String) -> String {
     }
 }
 
-fn too_large(path: &Path) -> Diagnostic {
+fn too_large(path: &Path) -> Box<Diagnostic> {
     let limit = MAX_FILE_BYTES >> 20;
-    Diagnostic::of_file(path, Kind::NotSupported, format!("scene files above {limit} MiB are not read"))
+    Box::new(Diagnostic::of_file(
+        path,
+        Kind::NotSupported,
+        format!("scene files above {limit} MiB are not read"),
+    ))
 }

@@ -10,9 +10,9 @@ mod references;
 mod settings;
 mod usage;
 
-use super::diagnostic::{Diagnostic, Kind, Severity};
+use super::diagnostic::{Diagnostic, Kind, Report, Severity};
 use super::source::Sources;
-use super::tree::{Node, Path, Span, number};
+use super::tree::{Node, Path, number};
 use super::{Object, Scene};
 use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
@@ -82,7 +82,7 @@ impl Checker<'_> {
         message: String,
         help: Option<String>,
     ) {
-        if paths.iter().any(|path| self.root.find(path).hole) {
+        if self.diagnostics.len() >= Report::MOST || paths.iter().any(|path| self.root.find(path).hole) {
             return;
         }
         let Some(path) = paths.first() else { return };
@@ -102,11 +102,6 @@ impl Checker<'_> {
 
     fn warn(&mut self, path: &Path, message: impl Into<String>) {
         self.report(Severity::Warning, Kind::Invalid, &[path], message.into(), None);
-    }
-
-    /// The place of the key of an entry, or of the entry.
-    fn key_span(&self, map: &str, name: &str) -> Option<Span> {
-        self.root.entry(map)?.node.entry(name).map(|entry| entry.key_span)
     }
 
     /// `low ≤ x ≤ high`.

@@ -2,8 +2,8 @@
 //! entries of included files, which may well be libraries.
 
 use super::objects::list;
-use super::{Checker, Severity};
-use crate::description::tree::{Path, Span};
+use super::{Checker, Report, Severity};
+use crate::description::tree::Path;
 use crate::description::{Object, Shape, Source};
 use std::collections::HashSet;
 
@@ -24,21 +24,9 @@ pub(super) fn check(c: &mut Checker) {
             weights.chain(normal).chain(m.bump_map.iter().map(|map| map.texture.as_str())).collect::<Vec<_>>()
         })
         .collect();
-    scene
-        .textures
-        .names()
-        .filter(|n| !textures.contains(n))
-        .for_each(|n| unused(c, "textures", "texture", n));
-    scene
-        .materials
-        .names()
-        .filter(|n| !materials.contains(n))
-        .for_each(|n| unused(c, "materials", "material", n));
-    scene
-        .definitions
-        .names()
-        .filter(|n| !definitions.contains(n))
-        .for_each(|n| unused(c, "definitions", "definition", n));
+    unused(c, "textures", "texture", &textures);
+    unused(c, "materials", "material", &materials);
+    unused(c, "definitions", "definition", &definitions);
     if scene.objects.is_empty() && !c.root.find(&list()).hole {
         c.warn(&Path::default(), "the scene has no objects");
     }
@@ -66,11 +54,14 @@ fn collect<'a>(object: &'a Object, materials: &mut HashSet<&'a str>, definitions
     }
 }
 
-fn unused(c: &mut Checker, map: &str, what: &str, name: &str) {
-    if let Some(span @ Span { source: 0, .. }) = c.key_span(map, name) {
+fn unused(c: &mut Checker, map: &str, what: &str, used: &HashSet<&str>) {
+    let entries = c.root.entry(map).map_or(&[][..], |entry| entry.node.entries());
+    let own = entries.iter().filter(|entry| entry.key_span.source == 0 && !used.contains(entry.key.as_str()));
+    for entry in own.take(Report::MOST) {
         let message = format!("the {what} is not used");
-        let mut diagnostic = c.sources.diagnostic(Severity::Warning, super::Kind::Invalid, span, message);
-        diagnostic.path = Some(Path::of(map).key(name).to_string());
+        let mut diagnostic =
+            c.sources.diagnostic(Severity::Warning, super::Kind::Invalid, entry.key_span, message);
+        diagnostic.path = Some(Path::of(map).key(&entry.key).to_string());
         c.diagnostics.push(diagnostic);
     }
 }

@@ -163,7 +163,12 @@ impl Reading {
             set::apply(&mut self, &mut root, overrides);
             let mut scene: Scene = recover::read(&mut root, &self.sources, &mut self.diagnostics)?;
             scene.include.clear();
+            // a single file's paths need no change
+            let included = self.sources.files().len() > 1;
             assets::for_each(&mut scene, &mut |path, place| {
+                if !included {
+                    return;
+                }
                 let base = &self.sources.get(root.find(place).node.span.source).base;
                 rebase(path, base);
             });

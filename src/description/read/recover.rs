@@ -3,7 +3,7 @@
 
 use super::de::{De, one_of};
 use super::fault::{Fault, Located};
-use crate::description::diagnostic::{Diagnostic, Kind, Severity};
+use crate::description::diagnostic::{Diagnostic, Kind, Report, Severity};
 use crate::description::source::Sources;
 use crate::description::suggest::{nearest, question};
 use crate::description::tree::{Entry, Node, Path, Span, Step, Style, Value};
@@ -43,6 +43,9 @@ struct Recovery<'s, 'd> {
 
 impl Recovery<'_, '_> {
     fn report(&mut self, span: Span, path: &Path, message: String, help: Option<String>) {
+        if self.diagnostics.len() >= 2 * Report::MOST {
+            return;
+        }
         let mut diagnostic =
             self.sources.diagnostic(Severity::Error, Kind::Invalid, span, message).with_help(help);
         diagnostic.path = Some(path.to_string());
