@@ -214,7 +214,8 @@ mod tests {
                 mean_cos += wi.z / f64::from(n * n);
             }
             assert!((integral * (exponent + 1.0) / TAU - 1.0).abs() < 1e-9, "{exponent}");
-            assert!((mean_cos - (exponent + 1.0) / (exponent + 2.0)).abs() < 1e-3 / (exponent + 1.0), "{exponent}");
+            let expected = (exponent + 1.0) / (exponent + 2.0);
+            assert!((mean_cos - expected).abs() < 1e-3 / (exponent + 1.0), "{exponent}");
         }
     }
 }
