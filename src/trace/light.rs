@@ -203,7 +203,8 @@ mod tests {
     #[test]
     fn directions_of_a_highlight_have_the_density_they_claim() {
         for exponent in [1.0, 50.0, 1e4] {
-            // ∫ f dω = mean of f/p, for f = cosⁿα: 2π/(n+1); and the mean of cos α is (n+1)/(n+2).
+            // ∫ f dω = mean of f/p, for f = cosⁿα: 2π/(n+1); and the mean of cos α is (n+1)/(n+2),
+            // of which 64 strata miss ln 2/(128·(n+1)).
             let n = 64;
             let (mut integral, mut mean_cos) = (0.0, 0.0);
             for i in 0..n * n {
@@ -215,7 +216,7 @@ mod tests {
             }
             assert!((integral * (exponent + 1.0) / TAU - 1.0).abs() < 1e-9, "{exponent}");
             let expected = (exponent + 1.0) / (exponent + 2.0);
-            assert!((mean_cos - expected).abs() < 1e-3 / (exponent + 1.0), "{exponent}");
+            assert!((mean_cos - expected).abs() < 1e-2 / (exponent + 1.0), "{exponent}");
         }
     }
 }
