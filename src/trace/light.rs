@@ -5,7 +5,7 @@ use super::shade::Shading;
 use crate::build::{Geometry, Hit, Surface};
 use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
 use crate::optics::{Emitter, EmitterKind, TexturePoint, sample_triangle_direction, spot_falloff};
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Light from one direction.
 pub struct LightSample {
@@ -118,16 +118,23 @@ impl Tracer<'_> {
         Some(LightSample { wi: ray.dir, value: radiance / pdf as f32, arrival: Arrival::Point { p: end } })
     }
 
-    /// One direction from the balance of two densities (Veach & Guibas 1995): the environment's own,
-    /// and the cosine of the surface, which serves wide and even skies better.
+    /// One direction from the balance of several densities (Veach & Guibas 1995): the environment's own;
+    /// the cosine of the surface, which serves wide and even skies better; and its highlight's, if it has one.
     fn environment_sample(&self, shading: &Shading, u: [f64; 2]) -> Option<LightSample> {
         let environment = self.world.environment.as_ref()?;
-        let wi = if u[0] < 0.5 {
-            environment.sample([2.0 * u[0], u[1]])?.dir
-        } else {
-            Frame::around(shading.ns).to_world(sampling::cosine_hemisphere([2.0 * u[0] - 1.0, u[1]]))
+        let exponent = (shading.ks != Vec3::ZERO).then_some(shading.material.shininess);
+        let strategies = if exponent.is_some() { 3.0 } else { 2.0 };
+        let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
+        let choice = strategies * u[0];
+        let u = [(choice - choice.floor()).clamp(0.0, 1.0 - f64::EPSILON), u[1]];
+        let wi = match exponent {
+            _ if choice < 1.0 => environment.sample(u)?.dir,
+            Some(exponent) if choice >= 2.0 => Frame::around(mirror).to_world(cosine_power(exponent, u)),
+            _ => Frame::around(shading.ns).to_world(sampling::cosine_hemisphere(u)),
         };
-        let pdf = 0.5 * (environment.pdf(wi) + wi.dot(shading.ns).max(0.0) * FRAC_1_PI);
+        let highlight = exponent.map_or(0.0, |exponent| cosine_power_pdf(exponent, wi.dot(mirror)));
+        let cosine = wi.dot(shading.ns).max(0.0) * FRAC_1_PI;
+        let pdf = (environment.pdf(wi) + cosine + highlight) / strategies;
         let radiance = environment.radiance(wi);
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi,
@@ -156,6 +163,18 @@ impl Tracer<'_> {
     }
 }
 
+/// A unit vector of density (n+1)/2π·cosⁿα about +z (Lafortune & Willems 1994).
+fn cosine_power(exponent: f64, u: [f64; 2]) -> DVec3 {
+    let cos = libm::pow(1.0 - u[0], 1.0 / (exponent + 1.0));
+    let sin = (1.0 - cos * cos).max(0.0).sqrt();
+    let (sin_phi, cos_phi) = libm::sincos(TAU * u[1]);
+    DVec3::new(sin * cos_phi, sin * sin_phi, cos)
+}
+
+fn cosine_power_pdf(exponent: f64, cos: f64) -> f64 {
+    if cos > 0.0 { (exponent + 1.0) / TAU * libm::pow(cos.min(1.0), exponent) } else { 0.0 }
+}
+
 /// Unit direction and squared distance from one point to another.
 fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64)> {
     let d = to - from;
@@ -175,4 +194,29 @@ fn plane_hit(ray: &Ray, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f32; 3])> {
     let v = ((p - a).cross(c - a).dot(n) * inverse).clamp(0.0, 1.0);
     let w = ((b - a).cross(p - a).dot(n) * inverse).clamp(0.0, 1.0 - v);
     Some((t, [(1.0 - v - w) as f32, v as f32, w as f32]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_of_a_highlight_have_the_density_they_claim() {
+        for exponent in [1.0, 50.0, 1e4] {
+            // ∫ f dω = mean of f/p, for f = cosⁿα: 2π/(n+1); and the mean of cos α is (n+1)/(n+2),
+            // of which 64 strata miss ln 2/(128·(n+1)).
+            let n = 64;
+            let (mut integral, mut mean_cos) = (0.0, 0.0);
+            for i in 0..n * n {
+                let u = [(f64::from(i / n) + 0.5) / f64::from(n), (f64::from(i % n) + 0.5) / f64::from(n)];
+                let wi = cosine_power(exponent, u);
+                assert!((wi.length() - 1.0).abs() < 1e-12);
+                integral += libm::pow(wi.z, exponent) / cosine_power_pdf(exponent, wi.z) / f64::from(n * n);
+                mean_cos += wi.z / f64::from(n * n);
+            }
+            assert!((integral * (exponent + 1.0) / TAU - 1.0).abs() < 1e-9, "{exponent}");
+            let expected = (exponent + 1.0) / (exponent + 2.0);
+            assert!((mean_cos - expected).abs() < 1e-2 / (exponent + 1.0), "{exponent}");
+        }
+    }
 }
