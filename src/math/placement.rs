@@ -12,6 +12,8 @@ pub struct Placement {
     normal_matrix: DMat3,
     /// The factor of volume, with its sign (negative for mirrored placements).
     det: f64,
+    /// Mean factor of length: ∛|det|.
+    scale: f64,
     /// Largest factor of length: a bound (Frobenius norm) on ‖M‖.
     stretch: f64,
 }
@@ -22,6 +24,7 @@ impl Placement {
         object_from_world: DAffine3::IDENTITY,
         normal_matrix: DMat3::IDENTITY,
         det: 1.0,
+        scale: 1.0,
         stretch: 1.0,
     };
 
@@ -41,6 +44,7 @@ impl Placement {
             object_from_world: world_from_object.inverse(),
             normal_matrix: cofactors * det.signum(),
             det,
+            scale: libm::cbrt(det.abs()),
             stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },
         })
     }
@@ -77,6 +81,11 @@ impl Placement {
 
     pub fn det(&self) -> f64 {
         self.det
+    }
+
+    /// The factor by which a length grows on the way to the world, over all directions.
+    pub fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// An upper bound on the factor by which a length grows on the way to the world.

@@ -90,8 +90,8 @@ impl TriangleMesh {
 
     /// Where shadow rays from a point of `triangle` start: lifted, where the vertex normals spread,
     /// to the curved surface that they describe, so that the flat triangles don't shadow themselves.
-    /// `front` tells on which side of `ng` the rays go. Where the surface curves the other way, and on
-    /// flat meshes, this is the point itself.
+    /// `front` tells on which side of `ng` the rays go. Where the surface curves the other way, where
+    /// all vertex normals are tilted alike, and on flat meshes, this is the point itself.
     pub fn shadow_terminator_point(&self, triangle: u32, b: [f32; 3], front: bool) -> DVec3 {
         let corners = self.corners(triangle);
         let [b1, b2] = [f64::from(b[1]), f64::from(b[2])];
@@ -102,14 +102,19 @@ impl TriangleMesh {
             return p;
         }
         let side = if front { ng } else { -ng };
-        let normals = self.corner_normals(triangle, ng);
+        let normals =
+            self.corner_normals(triangle, ng).map(|n| if n.dot(side) < 0.0 { -n } else { n });
+        // What all three are tilted by is no curvature.
+        let tilt = (normals[0] + normals[1] + normals[2]) / 3.0 - side;
         let weights = [1.0 - b1 - b2, b1, b2];
-        let lift = (0..3).map(|i| {
-            let n = if normals[i].dot(side) < 0.0 { -normals[i] } else { normals[i] };
-            // Up to the plane tangent at the vertex, if the point is below it.
-            n * (weights[i] * (p - corners[i]).dot(n).min(0.0))
-        });
-        p - lift.sum::<DVec3>()
+        let lift: DVec3 = (0..3)
+            .map(|i| {
+                let n = normals[i] - tilt;
+                // Up to the plane tangent at the vertex, if the point is below it.
+                n * (weights[i] * (corners[i] - p).dot(n).max(0.0))
+            })
+            .sum();
+        if lift.length() > traversal_error(&corners, p) { p + lift } else { p }
     }
 
     /// Normals of the vertices: those of their triangles, weighted by the triangles' angles there

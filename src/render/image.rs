@@ -54,7 +54,9 @@ pub(super) fn provenance(loaded: &Loaded, plan: &Plan, world: &World, tally: &Ta
     });
     let stats = &mut provenance.stats;
     stats.insert("samples".to_owned(), film.samples().into());
-    stats.insert("cutPaths".to_owned(), tally.cut.paths.into());
-    stats.insert("nonFiniteSamples".to_owned(), tally.health.of(Rare::NonFiniteSample).into());
+    // Whether, not how many: a corner that tiles share is counted in each of them, and the size of
+    // tiles must not show in the file.
+    stats.insert("pathsCut".to_owned(), (tally.cut.paths > 0).into());
+    stats.insert("samplesDropped".to_owned(), (tally.health.of(Rare::NonFiniteSample) > 0).into());
     provenance
 }

@@ -26,8 +26,9 @@ impl Cone {
     }
 }
 
-/// The point of a surface for texture lookups, with the ellipse in which the cone meets it.
-pub fn texture_point(surface: &Surface, wo: DVec3, cone: &Cone) -> TexturePoint {
+/// The point of a surface for texture lookups, with the ellipse in which the cone meets it; `scale` is
+/// that of the surface's placement.
+pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> TexturePoint {
     let radius = cone.width + cone.spread * surface.t;
     let n = surface.ng;
     let cos = wo.dot(n).abs().max(1e-4);
@@ -38,7 +39,7 @@ pub fn texture_point(surface: &Surface, wo: DVec3, cone: &Cone) -> TexturePoint 
         uv: surface.uv,
         duv: [in_uv(surface, major * (radius / cos)), in_uv(surface, minor * radius)],
         p: surface.local,
-        dp: radius,
+        dp: radius / scale,
     }
 }
 

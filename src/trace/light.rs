@@ -4,7 +4,7 @@ use super::Tracer;
 use super::shade::Shading;
 use crate::build::{Geometry, Hit, Surface};
 use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
-use crate::optics::{Emitter, EmitterKind, TexturePoint, sample_triangle_direction, spot_falloff};
+use crate::optics::{Emitter, EmitterKind, Shape, TexturePoint, sample_triangle_direction, spot_falloff};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Light from one direction.
@@ -55,7 +55,10 @@ impl Tracer<'_> {
             EmitterKind::Directional { to_light, irradiance } => {
                 Some(LightSample { wi: *to_light, value: *irradiance, arrival: Arrival::Infinite })
             }
-            EmitterKind::Shape { instance } => self.shape_sample(*instance, p, u),
+            // From where the shadow ray starts: a lamp's own surface must not be met from its other side.
+            EmitterKind::Shape { instance } => {
+                self.shape_sample(*instance, p + shading.ng * surface.p_error, u)
+            }
             EmitterKind::Mesh { instance, triangles, cumulative } => {
                 self.mesh_sample(*instance, triangles, cumulative, p, u)
             }
@@ -75,7 +78,12 @@ impl Tracer<'_> {
         let length = dir.length();
         let pdf = sample.pdf * length * length * length / placement.det().abs();
         let ray = Ray { origin: p, dir: dir / length };
-        let hit = self.world.nearest_of(index, &ray, f64::INFINITY)?;
+        let hit = self.world.nearest_of(index, &ray, f64::INFINITY).or_else(|| {
+            // Rounding leads the ray past a sphere that is very small for its distance.
+            let Shape::Sphere(sphere) = shape else { return None };
+            let t = sphere.nearest_to_center(&placement.local_ray(&ray))?;
+            Some(Hit { t, instance: index, primitive: 0, b: [0.0; 3] })
+        })?;
         let radiance = self.emitted_towards(&ray, &hit);
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi: ray.dir,

@@ -21,8 +21,9 @@ pub struct Shading<'a> {
 impl<'a> Shading<'a> {
     pub fn new(world: &'a World, surface: &Surface, wo: DVec3, cone: &Cone) -> Shading<'a> {
         let material = &world.materials[surface.material.0 as usize];
+        let scale = world.instances[surface.instance as usize].placement.scale();
         let point =
-            if material.textured { texture_point(surface, wo, cone) } else { plain_point(surface) };
+            if material.textured { texture_point(surface, scale, wo, cone) } else { plain_point(surface) };
         let at = |weight: &crate::optics::Weight| weight.at(&world.textures, || point);
         let outside = wo.dot(surface.ng) >= 0.0;
         let ns = bent_normal(world, material, surface, &point);

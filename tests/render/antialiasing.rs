@@ -24,7 +24,7 @@ fn none_is_a_grid_of_one() {
     assert!(shot(scene("none")).render().bits() == shot(scene("grid(1)")).render().bits());
 }
 
-/// With far fewer samples than grid(8), at least as near to the truth as grid(3).
+/// For like numbers of samples it comes nearer to the truth than a grid.
 #[test]
 fn adaptive_is_as_good_as_a_grid_for_fewer_samples() {
     let truth = shot(scene("grid(32)")).render();
@@ -34,8 +34,12 @@ fn adaptive_is_as_good_as_a_grid_for_fewer_samples() {
     let samples = adaptive.rendered.stats.samples as f64 / (64.0 * 48.0);
     println!("rms: none {none}, grid(3) {three}, adaptive {found} at {samples} samples a pixel");
     assert!(three < none);
-    assert!(found < three);
-    assert!(samples < 64.0, "{samples}");
+    assert!(found < error("grid(8)"));
+    assert!(samples < 80.0, "{samples}");
+    let coarse = shot(scene("adaptive(threshold: 0.1, depth: 2)")).render();
+    let (found, samples) = (rms(&coarse, &truth), coarse.rendered.stats.samples as f64 / (64.0 * 48.0));
+    println!("coarse: {found} at {samples} samples a pixel");
+    assert!(found < three && samples < 16.0, "{found} at {samples}");
     let progressive = rms(&shot(scene("progressive")).passes(256).render(), &truth);
     assert!(progressive < three, "{progressive}");
 }
@@ -116,16 +120,15 @@ fn hard_bright_edges_are_bounded_and_exposure_does_not_matter() {
 fn a_thin_wire_keeps_its_coverage() {
     let half = f64::to_radians(15.0).tan();
     let width = 2.0 * half * 5.0 / 32.0 * 0.01;
-    for (antialiasing, tolerance) in [("progressive", 0.1), ("grid(64)", 0.4)] {
-        let picture = shot(format!(
-            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32), antialiasing: {antialiasing},
-            materials: {{ "glow": (emission: 1) }},
-            objects: [(shape: box(size: ({width}, 9, 0.0001)), material: "glow", transform: [translate((0.01234, 0, 0))])])"#
-        ))
-        .passes(if antialiasing == "progressive" { 1024 } else { 1 })
-        .render();
-        assert_close(picture.mean() * 32.0, 0.01, tolerance);
-    }
+    let picture = shot(format!(
+        r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32),
+        materials: {{ "glow": (emission: 1) }},
+        objects: [(shape: box(size: ({width}, 9, 0.0001)), material: "glow", transform: [translate((0.01234, 0, 0))])])"#
+    ))
+    .passes(512)
+    .render();
+    // 32 pixels of 512 samples in 512 strata along x: no worse than independent ones, σ = 0.8 %.
+    assert_close(picture.mean() * 32.0, 0.01, 0.03);
 }
 
 /// Even surfaces are not divided, and cost what their corners and centres cost.
@@ -148,19 +151,20 @@ fn a_thin_lens_spreads_a_point_over_its_circle_of_confusion() {
     let scene = |aperture: f64| {
         shot(format!(
             r#"(camera: (eye: (0, 0, 4), target: (0, 0, 0), fov_deg: 30, aperture_m: {aperture}, focus_m: 2), image: (width: 33, height: 33),
-            materials: {{ "glow": (emission: 1) }}, objects: [(shape: disk(radius: 0.02), material: "glow", transform: [rotate(axis: (1, 0, 0), deg: 90)])])"#
+            materials: {{ "glow": (emission: 1) }}, objects: [(shape: disk(radius: 0.1), material: "glow", transform: [rotate(axis: (1, 0, 0), deg: 90)])])"#
         ))
-        .passes(1024)
+        .passes(512)
         .render()
     };
     let (sharp, soft) = (scene(0.0), scene(0.2));
     assert_close(soft.mean(), sharp.mean(), 0.03);
-    // At distance 4 with focus at 2: the disk's diameter in the focal plane is 0.2·(4−2)/4 = 0.1.
+    // In the focal plane, at 2: of the disk 0.1·2/4, of the lens 0.1·(4−2)/4, and their sum.
     let pixel = 2.0 * f64::to_radians(15.0).tan() * 2.0 / 33.0;
-    let radius = 0.05 / pixel;
+    let radius = 0.1 / pixel;
     for (i, value) in soft.grey().into_iter().enumerate() {
         let off = ((i % 33) as f64 - 16.0).hypot((i / 33) as f64 - 16.0);
         assert!(off <= radius + 1.2 || value == 0.0, "{value} at {off} pixels, radius {radius}");
-        assert!(off > radius - 1.2 || value > 0.0, "dark at {off} pixels, radius {radius}");
+        // Wholly within: each of the lens's points sees some of the disk.
+        assert!(off > radius - 1.6 || value > 0.0, "dark at {off} pixels, radius {radius}");
     }
 }

@@ -173,7 +173,7 @@ fn an_up_along_the_view_is_replaced() {
 #[test]
 fn an_ordinary_scene_is_healthy() {
     let mut shot = shot(
-        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 32, height: 24),
+        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 32, height: 24), render: (max_depth: 1000),
         textures: { "n": noise(a: 0, b: 1, size_m: 0.2) },
         materials: { "floor": (diffuse: 0.6, bump_map: (texture: "n", height_m: 0.02)), "glass": (transmission: 1), "water": (transmission: 1, ior: "water", absorption: 0.2) },
         lights: { "lamp": sphere(center: (-1, 4, 1), radius: 0.5, radiance: 9) },

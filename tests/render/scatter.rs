@@ -161,7 +161,7 @@ fn copies_stand_where_the_carrying_object_stands() {
         r#"(camera: (eye: (0, 5, 9), target: (1, 0, 0)), image: (width: 8, height: 8),
         materials: { "m": (diffuse: 0.5) }, definitions: { "dot": (shape: sphere(radius: 0.001), material: "m") },
         objects: [
-            (shape: group(objects: [(name: "table", shape: quad(size: (2, 2)), material: "m", transform: [translate((0, 1, 0))])]), transform: [scale((1, 3, 2)), translate((10, 0, 0))]),
+            (name: "table", shape: group(objects: [(shape: quad(size: (2, 2)), material: "m", transform: [translate((0, 1, 0))])]), transform: [scale((1, 3, 2)), translate((10, 0, 0))]),
             (shape: scatter(of: ["dot"], over: "table", count: 500), transform: [rotate(axis: (0, 1, 0), deg: 30), translate((5, 6, 7))]),
         ])"#,
     );

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Objects and lights in view of the origin, above it within 70° of +y.
 fn compare(name: &str, scene: &str, folder: &Path) {
     let fov_deg = 150.0;
-    let n = 300;
+    let n = 250;
     let seen = format!(
         "(camera: (eye: (0, 0, 0), target: (0, 1, 0), up: (0, 0, 1), fov_deg: {fov_deg}), \
          image: (width: {n}, height: {n}), antialiasing: grid(2), {scene}])"
@@ -31,7 +31,7 @@ fn compare(name: &str, scene: &str, folder: &Path) {
         r#"(camera: (eye: (0.0002, 0.0005, 0.0003), target: (0, 0, 0), fov_deg: 0.01),
             image: (width: 2, height: 2), {scene}, (shape: quad(size: (0.001, 0.001)), material: "white")])"#
     );
-    let found = shot(lit).folder(folder).passes(8192).render().mean() * PI;
+    let found = shot(lit).folder(folder).passes(4096).render().mean() * PI;
     assert!(expected > 0.0, "{name} is out of sight");
     println!("{name}: {found} lit, {expected} seen");
     assert_close(found, expected, 0.015);
@@ -40,7 +40,7 @@ fn compare(name: &str, scene: &str, folder: &Path) {
 fn objects(shapes: &str) -> String {
     format!(
         r#"materials: {{ "white": (diffuse: 1), "glow": (emission: 3), "pattern": (emission: texture("squares")), "black": () }},
-           textures: {{ "squares": checker(a: 4, b: 0.5, squares: (3, 5)) }}, objects: [{shapes}"#
+           textures: {{ "squares": checker(a: 4, b: 0.5, squares: (4, 6)) }}, objects: [{shapes}"#
     )
 }
 

@@ -152,15 +152,15 @@ fn far_patterns_become_their_mean() {
     let dir = folder();
     write_exr(&dir.path().join("tiles.exr"), 64, 64, |x, y| [((x / 4 + y / 4) % 2) as f32; 3]);
     for texture in [
-        "checker(a: 0, b: 1, squares: (4000, 4000))",
+        "checker(a: 0, b: 1, squares: (20000, 20000))",
         "checker3d(a: 0, b: 1, size_m: 0.01)",
-        r#"image(path: "tiles.exr", uv: (scale: (400, 400)))"#,
+        r#"image(path: "tiles.exr", uv: (scale: (2000, 2000)))"#,
         "noise(a: 0, b: 1, size_m: 0.002)",
     ] {
         let picture = shot(format!(
             r#"(camera: (eye: (0.01, 2, 30), target: (0, 0, 0), fov_deg: 20), image: (width: 64, height: 48), antialiasing: none,
             textures: {{ "t": {texture} }}, materials: {{ "m": (emission: texture("t")) }},
-            objects: [(shape: quad(size: (40, 40)), material: "m")])"#
+            objects: [(shape: quad(size: (200, 200)), material: "m")])"#
         ))
         .folder(dir.path())
         .render();

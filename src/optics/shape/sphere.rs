@@ -17,6 +17,13 @@ impl Sphere {
         Sphere { radius, center }
     }
 
+    /// Where on its way a ray from outside is nearest to the centre; `None` if that is behind it.
+    pub fn nearest_to_center(&self, ray: &Ray) -> Option<f64> {
+        let to_center = self.center - ray.origin;
+        let t = to_center.dot(ray.dir) / ray.dir.length_squared();
+        (t > 0.0 && to_center.length() > self.radius).then_some(t)
+    }
+
     /// sin² of the half-angle under which the sphere is seen; `None` from inside.
     fn sin2_theta_max(&self, from: DVec3) -> Option<f64> {
         let sin = self.radius / self.center.distance(from);
