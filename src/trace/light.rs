@@ -14,6 +14,8 @@ pub struct LightSample {
     /// Radiance over density (1/sr), or intensity over squared distance: W·m⁻² for a surface that
     /// faces it.
     pub value: Vec3,
+    /// Metres to the light along `wi`; infinite for light from afar.
+    pub distance: f64,
     pub arrival: Arrival,
 }
 
@@ -33,33 +35,35 @@ impl Tracer<'_> {
         emitter: &Emitter,
         surface: &Surface,
         shading: &Shading,
-        u: [f64; 2],
+        u: impl FnOnce() -> [f64; 2],
     ) -> Option<LightSample> {
         let p = surface.p;
         match &emitter.kind {
             EmitterKind::Point { position, intensity, falloff } => {
-                let (wi, distance2) = towards(p, *position)?;
+                let (wi, distance) = towards(p, *position)?;
+                let distance2 = distance * distance;
                 let attenuation = match falloff {
                     None => 1.0 / distance2,
-                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance2.sqrt() + c2 * distance2),
+                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance + c2 * distance2),
                 };
                 let value = *intensity * attenuation as f32;
-                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+                Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
             EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => {
-                let (wi, distance2) = towards(p, *position)?;
-                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / distance2;
+                let (wi, distance) = towards(p, *position)?;
+                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / (distance * distance);
                 let value = *intensity * share as f32;
-                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+                Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
             EmitterKind::Directional { to_light, irradiance } => {
-                Some(LightSample { wi: *to_light, value: *irradiance, arrival: Arrival::Infinite })
+                let (wi, value) = (*to_light, *irradiance);
+                Some(LightSample { wi, value, distance: f64::INFINITY, arrival: Arrival::Infinite })
             }
-            EmitterKind::Shape { instance } => self.shape_sample(*instance, p, u),
+            EmitterKind::Shape { instance } => self.shape_sample(*instance, p, u()),
             EmitterKind::Mesh { instance, triangles, cumulative } => {
-                self.mesh_sample(*instance, triangles, cumulative, p, u)
+                self.mesh_sample(*instance, triangles, cumulative, p, u())
             }
-            EmitterKind::Environment => self.environment_sample(shading, u),
+            EmitterKind::Environment => self.environment_sample(shading, u()),
         }
     }
 
@@ -80,6 +84,7 @@ impl Tracer<'_> {
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi: ray.dir,
             value: radiance / pdf as f32,
+            distance: hit.t,
             arrival: Arrival::Shape { p: ray.at(hit.t), instance: index },
         })
     }
@@ -115,7 +120,8 @@ impl Tracer<'_> {
         }
         let there = self.world.surface(&ray, &hit);
         let end = Ray::leaving(there.p, there.p_error, there.ng, -ray.dir).origin;
-        Some(LightSample { wi: ray.dir, value: radiance / pdf as f32, arrival: Arrival::Point { p: end } })
+        let value = radiance / pdf as f32;
+        Some(LightSample { wi: ray.dir, value, distance: t, arrival: Arrival::Point { p: end } })
     }
 
     /// One direction from the balance of two densities (Veach & Guibas 1995): the environment's own,
@@ -132,6 +138,7 @@ impl Tracer<'_> {
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi,
             value: radiance / pdf as f32,
+            distance: f64::INFINITY,
             arrival: Arrival::Infinite,
         })
     }
@@ -156,11 +163,11 @@ impl Tracer<'_> {
     }
 }
 
-/// Unit direction and squared distance from one point to another.
+/// Unit direction and distance from one point to another.
 fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64)> {
     let d = to - from;
-    let distance2 = d.length_squared();
-    (distance2 > 0.0).then(|| (d / distance2.sqrt(), distance2))
+    let distance = d.length();
+    (distance > 0.0).then(|| (d * (1.0 / distance), distance))
 }
 
 /// Where a ray meets the plane of a triangle, with barycentric coordinates put inside of it.
