@@ -75,6 +75,7 @@ impl Tracer<'_> {
 }
 
 /// f(wo, wi)·cosθ_i.
+#[inline]
 fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 {
     let cos = sample.wi.dot(shading.ns);
     if cos <= 0.0 {

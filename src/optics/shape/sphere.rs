@@ -44,10 +44,9 @@ impl Surface for Sphere {
 
     #[inline]
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
-        robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?
-            .into_iter()
-            .find(|&t| t_min < t && t < t_max)
-            .map(|t| ShapeHit { t, face: 0 })
+        let [enter, exit] = robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?;
+        let t = if t_min < enter { enter } else { exit };
+        (t_min < t && t < t_max).then_some(ShapeHit { t, face: 0 })
     }
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
