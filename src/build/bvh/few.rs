@@ -24,10 +24,9 @@ pub(super) struct Entered {
 }
 
 impl Entered {
-    /// Entry distances and numbers of the boxes.
     #[inline]
-    pub fn iter(&self) -> impl Iterator<Item = (f32, u32)> + '_ {
-        self.keys[..self.len].iter().map(|&key| (f32::from_bits((key >> 32) as u32), key as u32))
+    pub fn keys(&self) -> &[u64] {
+        &self.keys[..self.len]
     }
 }
 

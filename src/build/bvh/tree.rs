@@ -46,11 +46,11 @@ impl Bvh {
         if let Some(few) = &self.few {
             let entered = few.entered(self.machine, ray, &self.bounds, t_max, true);
             let mut limit = t_max;
-            for (entry, i) in entered.iter() {
-                if entry > Few::limit(limit) {
+            for &key in entered.keys() {
+                if f32::from_bits((key >> 32) as u32) > Few::limit(limit) {
                     return;
                 }
-                limit = visit(i, limit).map_or(limit, |t| t.min(limit));
+                limit = visit(key as u32, limit).map_or(limit, |t| t.min(limit));
             }
             return;
         }
@@ -63,7 +63,12 @@ impl Bvh {
     pub fn any(&self, ray: &BoxRay, t_max: f32, mut visit: impl FnMut(u32) -> bool) -> bool {
         if let Some(few) = &self.few {
             let entered = few.entered(self.machine, ray, &self.bounds, t_max, false);
-            return entered.iter().any(|(_, i)| visit(i));
+            for &key in entered.keys() {
+                if visit(key as u32) {
+                    return true;
+                }
+            }
+            return false;
         }
         self.machine.run(Any { tree: self, ray, t_max, visit })
     }
