@@ -28,14 +28,18 @@ pub struct Surface {
 }
 
 impl World {
-    /// The surface at a hit of `ray`.
+    /// The surface at a hit of `ray`, whose direction is of unit length. Coordinates and their
+    /// derivatives are left at 0 on shapes whose material asks for none.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let placement = &instance.placement;
+        let binding = &self.bindings[instance.binding as usize];
         let (local, part, lifted) = match &self.geometries[instance.geometry as usize] {
             Geometry::Shape(shape) => {
                 let local = placement.local_ray(ray);
-                (shape.surface(&local, World::shape_hit(hit)), 0, None)
+                let hit = World::shape_hit(hit);
+                let textured = self.materials[binding[0].0 as usize].textured;
+                (if textured { shape.surface(&local, hit) } else { shape.bare_surface(&local, hit) }, 0, None)
             }
             Geometry::Mesh(mesh) => {
                 let m = &mesh.surface;
@@ -48,11 +52,10 @@ impl World {
             }
         };
         let p = placement.point(local.p);
-        let binding = &self.bindings[instance.binding as usize];
-        let ng = placement.normal(local.ng);
-        let ns = if local.ns == local.ng { ng } else { placement.normal(local.ns) };
+        let ng = placement.unit_normal(local.ng);
+        let ns = if local.ns == local.ng { ng } else { placement.unit_normal(local.ns) };
         Surface {
-            t: (p - ray.origin).dot(ray.dir) / ray.dir.length_squared(),
+            t: (p - ray.origin).dot(ray.dir),
             p,
             p_error: local.p_error * placement.stretch() + rounding(p, local.p, placement.stretch()),
             ng,
@@ -70,5 +73,6 @@ impl World {
 
 /// What double-precision placement adds to a point's error, there and back.
 fn rounding(world: DVec3, local: DVec3, stretch: f64) -> f64 {
-    16.0 * f64::EPSILON * (world.length() + stretch * local.length())
+    // Sums of the coordinates' sizes bound the lengths, without square roots.
+    16.0 * f64::EPSILON * (world.abs().element_sum() + stretch * local.abs().element_sum())
 }

@@ -72,11 +72,13 @@ pub struct Hit {
     pub b: [f32; 3],
 }
 
-/// The rounding of a double-precision point to single precision, bounded.
+/// A double-precision ray rounded to single precision, the origin's rounding bounded: half a unit in
+/// the last place, which below the normal numbers is less than the smallest of them.
+#[inline]
 pub fn box_ray(ray: &Ray) -> BoxRay {
     let origin = ray.origin.as_vec3();
-    let error = (ray.origin - origin.as_dvec3()).abs();
-    BoxRay::new(origin, Vec3::from(error.to_array().map(round_up)), ray.dir.as_vec3())
+    let error = origin.abs() * (0.5 * f32::EPSILON) + Vec3::splat(f32::MIN_POSITIVE);
+    BoxRay::new(origin, error, ray.dir.as_vec3())
 }
 
 impl Geometry {
@@ -91,6 +93,7 @@ impl Geometry {
     }
 
     /// The nearest hit with 0 < t < t_max of a ray in object space.
+    #[inline]
     fn nearest(&self, local: &Ray, t_max: f64) -> Option<(f64, u32, [f32; 3])> {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
@@ -101,6 +104,7 @@ impl Geometry {
         }
     }
 
+    #[inline]
     fn any(&self, local: &Ray, t_max: f64) -> bool {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).is_some(),
@@ -123,6 +127,7 @@ impl World {
     }
 
     /// The nearest hit of one instance with 0 < t < t_max.
+    #[inline]
     pub fn nearest_of(&self, instance: u32, ray: &Ray, t_max: f64) -> Option<Hit> {
         let placed = &self.instances[instance as usize];
         let local = placed.placement.local_ray(ray);

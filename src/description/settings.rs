@@ -65,11 +65,11 @@ pub enum Antialiasing {
 }
 
 fn default_threshold() -> f64 {
-    0.05
+    0.1
 }
 
 fn default_depth() -> u32 {
-    3
+    2
 }
 
 /// How much is rendered.

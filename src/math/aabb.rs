@@ -58,12 +58,14 @@ impl Aabb {
 }
 
 /// The largest `f32` that is not above `x`.
+#[inline]
 pub fn round_down(x: f64) -> f32 {
     let r = x as f32;
     if f64::from(r) > x { r.next_down() } else { r }
 }
 
 /// The smallest `f32` that is not below `x`.
+#[inline]
 pub fn round_up(x: f64) -> f32 {
     let r = x as f32;
     if f64::from(r) < x { r.next_up() } else { r }

@@ -16,6 +16,8 @@ pub struct Placement {
     scale: f64,
     /// Largest factor of length: a bound (Frobenius norm) on ‖M‖.
     stretch: f64,
+    /// Whether the map moves without turning or scaling, as most do.
+    translation_only: bool,
 }
 
 impl Placement {
@@ -26,6 +28,7 @@ impl Placement {
         det: 1.0,
         scale: 1.0,
         stretch: 1.0,
+        translation_only: true,
     };
 
     /// `None` for a map that cannot be inverted: |det| < 1e-30·‖M‖³, or not finite.
@@ -46,15 +49,27 @@ impl Placement {
             det,
             scale: libm::cbrt(det.abs()),
             stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },
+            translation_only: m == DMat3::IDENTITY,
         })
     }
 
+    #[inline]
     pub fn point(&self, p: DVec3) -> DVec3 {
+        if self.translation_only {
+            return p + self.world_from_object.translation;
+        }
         self.world_from_object.transform_point3(p)
     }
 
+    #[inline]
     pub fn vector(&self, v: DVec3) -> DVec3 {
-        self.world_from_object.transform_vector3(v)
+        if self.translation_only { v } else { self.world_from_object.transform_vector3(v) }
+    }
+
+    /// The unit world normal for a unit normal in object space.
+    #[inline]
+    pub fn unit_normal(&self, n: DVec3) -> DVec3 {
+        if self.translation_only { n } else { self.normal(n) }
     }
 
     /// The unit world normal for an object-space normal of any length but zero.
@@ -62,15 +77,21 @@ impl Placement {
         (self.normal_matrix * n).normalize()
     }
 
+    #[inline]
     pub fn local_point(&self, p: DVec3) -> DVec3 {
+        if self.translation_only {
+            return p + self.object_from_world.translation;
+        }
         self.object_from_world.transform_point3(p)
     }
 
+    #[inline]
     pub fn local_vector(&self, v: DVec3) -> DVec3 {
-        self.object_from_world.transform_vector3(v)
+        if self.translation_only { v } else { self.object_from_world.transform_vector3(v) }
     }
 
     /// The ray in object space. Its direction is not normalised, so that t is the world's.
+    #[inline]
     pub fn local_ray(&self, ray: &Ray) -> Ray {
         Ray { origin: self.local_point(ray.origin), dir: self.local_vector(ray.dir) }
     }

@@ -15,6 +15,7 @@ pub enum Stage {
 }
 
 /// A 64-bit mix with full avalanche (the finaliser of SplitMix64; Steele, Lea, Flood 2014).
+#[inline]
 pub fn mix(mut x: u64) -> u64 {
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -22,16 +23,19 @@ pub fn mix(mut x: u64) -> u64 {
 }
 
 /// Folds one more word into a key.
+#[inline]
 pub fn combine(key: u64, word: u64) -> u64 {
     mix(key.wrapping_add(0x9e37_79b9_7f4a_7c15) ^ word.wrapping_mul(0xd6e8_feb8_6659_fd93))
 }
 
 /// [0, 1) from the upper 53 bits.
+#[inline]
 pub fn unit(x: u64) -> f64 {
     (x >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// [0, 1) from 32 bits.
+#[inline]
 fn unit32(x: u32) -> f64 {
     f64::from(x) * (1.0 / (1u64 << 32) as f64)
 }
@@ -72,21 +76,31 @@ pub struct Sequence {
 }
 
 impl Sequence {
+    #[inline]
     pub fn new(seed: u64, stage: Stage, item: u64, index: u32) -> Sequence {
         Sequence { key: combine(combine(mix(seed), stage as u64), item), index }
     }
 
+    /// Another sample of the same sequence.
+    #[inline]
+    pub fn at(&self, index: u32) -> Sequence {
+        Sequence { key: self.key, index }
+    }
+
     /// The same samples' values for another use: another dimension, path vertex or branch.
+    #[inline]
     pub fn dimension(&self, dimension: u64) -> Sequence {
         Sequence { key: combine(self.key, dimension), index: self.index }
     }
 
     /// Sample `part` of `parts` where one sample of this sequence is divided into several.
+    #[inline]
     pub fn split(&self, part: u32, parts: u32) -> Sequence {
         Sequence { key: self.key, index: self.index.wrapping_mul(parts).wrapping_add(part) }
     }
 
     /// A point of [0, 1)²: any 2^k consecutive samples are a (0, k, 2)-net.
+    #[inline]
     pub fn pair(&self) -> [f64; 2] {
         let (a, b) = (mix(self.key), mix(self.key ^ 0x5851_f42d_4c95_7f2d));
         let index = owen(self.index, (a >> 32) as u32);
@@ -95,6 +109,7 @@ impl Sequence {
     }
 
     /// A value of [0, 1), well distributed over the samples.
+    #[inline]
     pub fn value(&self) -> f64 {
         self.pair()[0]
     }
@@ -102,6 +117,7 @@ impl Sequence {
 
 /// The first two Sobol' dimensions. The second's matrix is Pascal's triangle modulo 2, which is a
 /// tensor power, so that five exclusive-or steps multiply by it.
+#[inline]
 fn sobol(index: u32) -> (u32, u32) {
     let mut x = index;
     x ^= (x >> 1) & 0x5555_5555;
@@ -114,6 +130,7 @@ fn sobol(index: u32) -> (u32, u32) {
 
 /// Nested uniform scrambling in base 2: each bit is flipped by a hash of the bits above it.
 /// The permutation of the reversed word is Laine & Karras 2011 with Burley's 2020 constants.
+#[inline]
 fn owen(x: u32, seed: u32) -> u32 {
     let mut v = x.reverse_bits();
     v ^= v.wrapping_mul(0x3d20_adea);

@@ -12,6 +12,7 @@ pub struct Ray {
 }
 
 impl Ray {
+    #[inline]
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + self.dir * t
     }
@@ -19,6 +20,7 @@ impl Ray {
     /// The ray that leaves the surface point `p`, known to within `p_error` metres, in direction
     /// `dir`: its origin is moved off the surface along the geometric normal, to the side on which
     /// it goes on (after Wächter & Binder, Ray Tracing Gems, ch. 6, with the error known instead of guessed).
+    #[inline]
     pub fn leaving(p: DVec3, p_error: f64, ng: DVec3, dir: DVec3) -> Ray {
         let side = if dir.dot(ng) >= 0.0 { p_error } else { -p_error };
         Ray { origin: p + ng * side, dir }

@@ -15,6 +15,7 @@ pub const UNIT: f64 = f64::EPSILON * 0.5;
 pub const UNIT_F32: f64 = 0.5 / (1u32 << 23) as f64;
 
 /// γₙ: bound on the relative error of `n` roundings in double precision, `n` < 2⁵².
+#[inline]
 pub fn gamma(n: u32) -> f64 {
     let e = f64::from(n) * UNIT;
     e / (1.0 - e)
@@ -87,6 +88,7 @@ pub fn quadratic_roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
 
 /// The two distances, ascending and different, at which the line `from_center` + t·`dir` crosses a
 /// sphere of `radius` around 0. `dir` need not be of unit length; a line that only touches misses.
+#[inline]
 pub fn sphere_roots(from_center: DVec3, dir: DVec3, radius: f64) -> Option<[f64; 2]> {
     let a = dir.length_squared();
     if a <= 0.0 || a.is_nan() {
@@ -94,7 +96,12 @@ pub fn sphere_roots(from_center: DVec3, dir: DVec3, radius: f64) -> Option<[f64;
     }
     let b = -from_center.dot(dir);
     // How far the line passes from the centre: small numbers only, however far the origin.
-    let nearest = (from_center + dir * (b / a)).length();
+    let nearest2 = (from_center + dir * (b / a)).length_squared();
+    // Certain to miss: said before the square roots. A NaN goes on, and is caught below.
+    if nearest2 > radius * radius * (1.0 + 8.0 * UNIT) {
+        return None;
+    }
+    let nearest = nearest2.sqrt();
     let quarter_chord2 = (radius - nearest) * (radius + nearest);
     if quarter_chord2 <= 0.0 || quarter_chord2.is_nan() {
         return None;

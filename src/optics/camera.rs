@@ -20,10 +20,12 @@ pub struct Camera {
 
 impl Camera {
     /// `film` in pixels from the top left corner; `lens` on the unit disk.
+    #[inline]
     pub fn ray(&self, film: DVec2, lens: DVec2) -> Ray {
         let half = f64::from(self.height) / 2.0;
-        let x = (film.x - f64::from(self.width) / 2.0) / half * self.tan_half;
-        let y = (half - film.y) / half * self.tan_half;
+        let scale = self.tan_half / half;
+        let x = (film.x - f64::from(self.width) / 2.0) * scale;
+        let y = (half - film.y) * scale;
         let dir = self.forward + self.right * x + self.up * y;
         if self.lens_radius == 0.0 {
             return Ray { origin: self.eye, dir: dir.normalize() };

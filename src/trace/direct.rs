@@ -5,6 +5,7 @@
 //! light, glass as well: what glass lets through is a caustic.
 
 use super::light::{Arrival, LightSample};
+use super::path::LIGHTS;
 use super::shade::Shading;
 use super::{Tally, Tracer};
 use crate::build::{MediaSet, Surface};
@@ -26,18 +27,18 @@ impl Tracer<'_> {
     ) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for (i, emitter) in (0u64..).zip(&self.world.emitters) {
-            let own = sequence.dimension(i);
             let mut light = Vec3::ZERO;
             for k in 0..emitter.samples {
-                let u = own.split(k, emitter.samples).pair();
+                // Only emitters with an extent draw it.
+                let u = || sequence.dimension(LIGHTS).dimension(i).split(k, emitter.samples).pair();
                 let Some(sample) = self.light_sample(emitter, surface, shading, u) else { continue };
                 let value = sample.value * reflected_share(base, shading, &sample);
                 if value == Vec3::ZERO {
                     continue;
                 }
                 tally.rays.shadow += 1;
-                if let Some(distance) = self.visible(surface, shading, &sample) {
-                    light += value * self.transmittance(media, distance);
+                if self.visible(surface, shading, &sample) {
+                    light += value * self.transmittance(media, sample.distance);
                 }
             }
             sum += light / emitter.samples as f32;
@@ -45,35 +46,36 @@ impl Tracer<'_> {
         sum
     }
 
-    /// The distance to a light that nothing hides.
-    fn visible(&self, surface: &Surface, shading: &Shading, sample: &LightSample) -> Option<f64> {
+    /// Whether nothing hides the light.
+    fn visible(&self, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
         let lifted = surface.shadow_p != surface.p;
         let above = sample.wi.dot(shading.ng) > 0.0;
         if !above && !lifted {
             // Lit through the back of the surface: only the shading normal says otherwise.
-            return None;
+            return false;
         }
         let start = if lifted { surface.shadow_p } else { surface.p };
         let origin = start + shading.ng * surface.p_error;
         match sample.arrival {
             Arrival::Infinite => {
                 let ray = Ray { origin, dir: sample.wi };
-                (!self.world.occluded(&ray, f64::INFINITY, None)).then_some(f64::INFINITY)
+                !self.world.occluded(&ray, f64::INFINITY, None)
             }
             // The emitter is convex: what lies before its first surface is not itself.
             Arrival::Shape { p, instance } => {
                 let ray = Ray { origin, dir: p - origin };
-                (!self.world.occluded(&ray, 1.0, Some(instance))).then(|| ray.dir.length())
+                !self.world.occluded(&ray, 1.0, Some(instance))
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };
-                (!self.world.occluded(&ray, 1.0, None)).then(|| ray.dir.length())
+                !self.world.occluded(&ray, 1.0, None)
             }
         }
     }
 }
 
 /// f(wo, wi)·cosθ_i.
+#[inline]
 fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 {
     let cos = sample.wi.dot(shading.ns);
     if cos <= 0.0 {

@@ -33,24 +33,27 @@ pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> T
     let n = surface.ng;
     let cos = wo.dot(n).abs().max(1e-4);
     let along = (wo - n * wo.dot(n)).try_normalize();
-    let minor = along.map_or(surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO), |a| n.cross(a));
+    let minor = along.map_or_else(|| surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO), |a| n.cross(a));
     let major = along.unwrap_or_else(|| n.cross(minor));
     TexturePoint {
         uv: surface.uv,
-        duv: [in_uv(surface, major * (radius / cos)), in_uv(surface, minor * radius)],
+        duv: in_uv(surface, [major * (radius / cos), minor * radius]),
         p: surface.local,
         dp: radius / scale,
     }
 }
 
-/// The (u, v) step of a step on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.
-fn in_uv(surface: &Surface, step: DVec3) -> DVec2 {
+/// The (u, v) steps of steps on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.
+fn in_uv(surface: &Surface, steps: [DVec3; 2]) -> [DVec2; 2] {
     let (u, v) = (surface.dpdu, surface.dpdv);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
     if !(det > 1e-12 * uu * vv) {
-        return DVec2::ZERO;
+        return [DVec2::ZERO; 2];
     }
-    let (su, sv) = (step.dot(u), step.dot(v));
-    DVec2::new((vv * su - uv * sv) / det, (uu * sv - uv * su) / det)
+    let inverse = 1.0 / det;
+    steps.map(|step| {
+        let (su, sv) = (step.dot(u), step.dot(v));
+        DVec2::new(vv * su - uv * sv, uu * sv - uv * su) * inverse
+    })
 }

@@ -5,7 +5,7 @@ use super::shade::Shading;
 use crate::build::{Geometry, Hit, Surface};
 use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
 use crate::optics::{Emitter, EmitterKind, Shape, TexturePoint, sample_triangle_direction, spot_falloff};
-use std::f64::consts::{FRAC_1_PI, TAU};
+use std::f64::consts::FRAC_1_PI;
 
 /// Light from one direction.
 pub struct LightSample {
@@ -14,6 +14,8 @@ pub struct LightSample {
     /// Radiance over density (1/sr), or intensity over squared distance: W·m⁻² for a surface that
     /// faces it.
     pub value: Vec3,
+    /// Metres to the light along `wi`; infinite for light from afar.
+    pub distance: f64,
     pub arrival: Arrival,
 }
 
@@ -33,36 +35,38 @@ impl Tracer<'_> {
         emitter: &Emitter,
         surface: &Surface,
         shading: &Shading,
-        u: [f64; 2],
+        u: impl FnOnce() -> [f64; 2],
     ) -> Option<LightSample> {
         let p = surface.p;
         match &emitter.kind {
             EmitterKind::Point { position, intensity, falloff } => {
-                let (wi, distance2) = towards(p, *position)?;
+                let (wi, distance) = towards(p, *position)?;
+                let distance2 = distance * distance;
                 let attenuation = match falloff {
                     None => 1.0 / distance2,
-                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance2.sqrt() + c2 * distance2),
+                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance + c2 * distance2),
                 };
                 let value = *intensity * attenuation as f32;
-                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+                Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
             EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => {
-                let (wi, distance2) = towards(p, *position)?;
-                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / distance2;
+                let (wi, distance) = towards(p, *position)?;
+                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / (distance * distance);
                 let value = *intensity * share as f32;
-                Some(LightSample { wi, value, arrival: Arrival::Point { p: *position } })
+                Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
             EmitterKind::Directional { to_light, irradiance } => {
-                Some(LightSample { wi: *to_light, value: *irradiance, arrival: Arrival::Infinite })
+                let (wi, value) = (*to_light, *irradiance);
+                Some(LightSample { wi, value, distance: f64::INFINITY, arrival: Arrival::Infinite })
             }
             // From where the shadow ray starts: a lamp's own surface must not be met from its other side.
             EmitterKind::Shape { instance } => {
-                self.shape_sample(*instance, p + shading.ng * surface.p_error, u)
+                self.shape_sample(*instance, p + shading.ng * surface.p_error, u())
             }
             EmitterKind::Mesh { instance, triangles, cumulative } => {
-                self.mesh_sample(*instance, triangles, cumulative, p, u)
+                self.mesh_sample(*instance, triangles, cumulative, p, u())
             }
-            EmitterKind::Environment => self.environment_sample(shading, u),
+            EmitterKind::Environment => self.environment_sample(shading, u()),
         }
     }
 
@@ -88,6 +92,7 @@ impl Tracer<'_> {
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi: ray.dir,
             value: radiance / pdf as f32,
+            distance: hit.t,
             arrival: Arrival::Shape { p: ray.at(hit.t), instance: index },
         })
     }
@@ -123,7 +128,8 @@ impl Tracer<'_> {
         }
         let there = self.world.surface(&ray, &hit);
         let end = Ray::leaving(there.p, there.p_error, there.ng, -ray.dir).origin;
-        Some(LightSample { wi: ray.dir, value: radiance / pdf as f32, arrival: Arrival::Point { p: end } })
+        let value = radiance / pdf as f32;
+        Some(LightSample { wi: ray.dir, value, distance: t, arrival: Arrival::Point { p: end } })
     }
 
     /// One direction from the balance of several densities (Veach & Guibas 1995): the environment's own;
@@ -137,16 +143,17 @@ impl Tracer<'_> {
         let u = [(choice - choice.floor()).clamp(0.0, 1.0 - f64::EPSILON), u[1]];
         let wi = match exponent {
             _ if choice < 1.0 => environment.sample(u)?.dir,
-            Some(exponent) if choice >= 2.0 => Frame::around(mirror).to_world(cosine_power(exponent, u)),
+            Some(exponent) if choice >= 2.0 => Frame::around(mirror).to_world(sampling::phong_lobe(exponent, u)),
             _ => Frame::around(shading.ns).to_world(sampling::cosine_hemisphere(u)),
         };
-        let highlight = exponent.map_or(0.0, |exponent| cosine_power_pdf(exponent, wi.dot(mirror)));
+        let highlight = exponent.map_or(0.0, |exponent| sampling::phong_lobe_pdf(exponent, wi.dot(mirror)));
         let cosine = wi.dot(shading.ns).max(0.0) * FRAC_1_PI;
         let pdf = (environment.pdf(wi) + cosine + highlight) / strategies;
         let radiance = environment.radiance(wi);
         (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
             wi,
             value: radiance / pdf as f32,
+            distance: f64::INFINITY,
             arrival: Arrival::Infinite,
         })
     }
@@ -171,23 +178,11 @@ impl Tracer<'_> {
     }
 }
 
-/// A unit vector of density (n+1)/2π·cosⁿα about +z (Lafortune & Willems 1994).
-fn cosine_power(exponent: f64, u: [f64; 2]) -> DVec3 {
-    let cos = libm::pow(1.0 - u[0], 1.0 / (exponent + 1.0));
-    let sin = (1.0 - cos * cos).max(0.0).sqrt();
-    let (sin_phi, cos_phi) = libm::sincos(TAU * u[1]);
-    DVec3::new(sin * cos_phi, sin * sin_phi, cos)
-}
-
-fn cosine_power_pdf(exponent: f64, cos: f64) -> f64 {
-    if cos > 0.0 { (exponent + 1.0) / TAU * libm::pow(cos.min(1.0), exponent) } else { 0.0 }
-}
-
-/// Unit direction and squared distance from one point to another.
+/// Unit direction and distance from one point to another.
 fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64)> {
     let d = to - from;
-    let distance2 = d.length_squared();
-    (distance2 > 0.0).then(|| (d / distance2.sqrt(), distance2))
+    let distance = d.length();
+    (distance > 0.0).then(|| (d * (1.0 / distance), distance))
 }
 
 /// Where a ray meets the plane of a triangle, with barycentric coordinates put inside of it.
@@ -202,29 +197,4 @@ fn plane_hit(ray: &Ray, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f32; 3])> {
     let v = ((p - a).cross(c - a).dot(n) * inverse).clamp(0.0, 1.0);
     let w = ((b - a).cross(p - a).dot(n) * inverse).clamp(0.0, 1.0 - v);
     Some((t, [(1.0 - v - w) as f32, v as f32, w as f32]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn directions_of_a_highlight_have_the_density_they_claim() {
-        for exponent in [1.0, 50.0, 1e4] {
-            // ∫ f dω = mean of f/p, for f = cosⁿα: 2π/(n+1); and the mean of cos α is (n+1)/(n+2),
-            // of which 64 strata miss ln 2/(128·(n+1)).
-            let n = 64;
-            let (mut integral, mut mean_cos) = (0.0, 0.0);
-            for i in 0..n * n {
-                let u = [(f64::from(i / n) + 0.5) / f64::from(n), (f64::from(i % n) + 0.5) / f64::from(n)];
-                let wi = cosine_power(exponent, u);
-                assert!((wi.length() - 1.0).abs() < 1e-12);
-                integral += libm::pow(wi.z, exponent) / cosine_power_pdf(exponent, wi.z) / f64::from(n * n);
-                mean_cos += wi.z / f64::from(n * n);
-            }
-            assert!((integral * (exponent + 1.0) / TAU - 1.0).abs() < 1e-9, "{exponent}");
-            let expected = (exponent + 1.0) / (exponent + 2.0);
-            assert!((mean_cos - expected).abs() < 1e-2 / (exponent + 1.0), "{exponent}");
-        }
-    }
 }

@@ -46,7 +46,7 @@ struct Branch {
 }
 
 /// Dimensions of a path vertex's random values.
-const LIGHTS: u64 = 1;
+pub(super) const LIGHTS: u64 = 1;
 const ROULETTE: u64 = 2;
 const MIRROR: u64 = 3;
 const REFLECTED: u64 = 4;
@@ -81,7 +81,7 @@ impl Tracer<'_> {
         tally.health.samples += 1;
         let mut sample = Sample::default();
         scratch.branches.clear();
-        scratch.branches.push(Branch {
+        let mut branch = Branch {
             ray: camera.ray(film, lens),
             throughput: Vec3::ONE,
             media: scratch.start,
@@ -89,39 +89,42 @@ impl Tracer<'_> {
             depth: 0,
             sequence,
             class: Class::Direct,
-        });
-        while let Some(branch) = scratch.branches.pop() {
-            self.follow(branch, &mut sample, &mut scratch.branches, tally);
+        };
+        loop {
+            self.follow(&mut branch, &mut sample, &mut scratch.branches, tally);
+            match scratch.branches.pop() {
+                Some(next) => branch = next,
+                None => return sample,
+            }
         }
-        sample
     }
 
-    fn follow(&self, branch: Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
+    fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
-            return deposit(sample, branch.class, branch.throughput * self.leaving(&branch));
+            return deposit(sample, branch.class, branch.throughput * self.leaving(branch));
         };
         let surface = self.world.surface(&branch.ray, &hit);
-        let branch = Branch { throughput: branch.throughput * self.transmittance(&branch.media, surface.t), ..branch };
+        branch.throughput *= self.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
         let shading = Shading::new(self.world, &surface, wo, &branch.cone);
         if self.wants.first_hit && branch.depth == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
-        if let Some((after, tolerance)) = self.crossing(&branch, &surface, &shading, tally) {
+        if let Some((after, tolerance)) = self.crossing(branch, &surface, &shading, tally) {
             if after.top() == branch.media.top() {
                 // Within an object of higher priority this surface does not exist.
                 let ray = Ray::leaving(surface.p, tolerance, surface.ng, branch.ray.dir);
-                let next = Branch { ray, media: after, cone: branch.cone.after(surface.t), ..branch };
+                let next = Branch { ray, media: after, cone: branch.cone.after(surface.t), ..*branch };
                 return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
             }
-            self.interface(&branch, &surface, &shading, after, tolerance, todo, tally);
+            self.interface(branch, &surface, &shading, after, tolerance, todo, tally);
         }
-        let radiance = shading.emitted() + self.shaded(&branch, &surface, &shading, tally);
+        let radiance = shading.emitted() + self.shaded(branch, &surface, &shading, tally);
         deposit(sample, branch.class, branch.throughput * radiance);
         if shading.km != Vec3::ZERO {
             let wi = self.above(reflected(wo, shading.ns), &shading, tally);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
-            let next = Branch { ray, cone: branch.cone.after(surface.t), ..branch };
+            let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
             tally.rays.reflection += 1;
             self.push(next, shading.km, MIRROR, Class::Reflection, todo, tally);
         }
@@ -275,7 +278,7 @@ impl Tracer<'_> {
             return Vec3::ZERO;
         }
         base * self.world.ambient
-            + self.direct(base, surface, shading, &branch.media, branch.sequence.dimension(LIGHTS), tally)
+            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally)
     }
 
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {

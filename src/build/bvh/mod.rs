@@ -8,6 +8,7 @@
 
 mod binned;
 mod collapse;
+mod few;
 mod lanes;
 mod mesh;
 mod node;

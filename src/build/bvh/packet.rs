@@ -59,10 +59,9 @@ pub(super) struct Shear<L: Lanes> {
 impl<L: Lanes> Shear<L> {
     #[inline(always)]
     pub fn new(lanes: L, ray: &BoxRay, bounds: &Aabb) -> Self {
-        let [kx, ky, kz] = [ray.axes[0] as usize, ray.axes[1] as usize, ray.axes[2] as usize];
+        let ([kx, ky, kz], [sx, sy, scale]) = ray.shear();
         assert!(kx < 3 && ky < 3 && kz < 3);
         let origin1 = [ray.origin[kx], ray.origin[ky], ray.origin[kz]];
-        let [sx, sy, scale] = ray.shear;
         Shear {
             axes: [kx, ky, kz],
             origin: [lanes.splat(origin1[0]), lanes.splat(origin1[1]), lanes.splat(origin1[2])],

@@ -30,10 +30,6 @@ pub struct BoxRay {
     pub(super) dir: Vec3,
     /// Reciprocal of `dir`, infinite where `dir` is ±0.
     inv: Vec3,
-    /// The axes in the order x, y, z of the triangle test's sheared space.
-    pub(super) axes: [u8; 3],
-    /// Shear of x and y, and scale of z.
-    pub(super) shear: [f32; 3],
 }
 
 impl BoxRay {
@@ -41,17 +37,24 @@ impl BoxRay {
     /// `origin` is exact). A ray with a non-finite or zero direction meets nothing.
     #[inline]
     pub fn new(origin: Vec3, origin_error: Vec3, dir: Vec3) -> BoxRay {
-        let d = dir.abs();
+        BoxRay { origin, origin_error, dir, inv: dir.recip() }
+    }
+
+    /// The axes in the order x, y, z of the triangle test's sheared space, and its shear of x and y
+    /// and scale of z.
+    #[inline(always)]
+    pub(super) fn shear(&self) -> ([usize; 3], [f32; 3]) {
+        let (dir, d) = (self.dir, self.dir.abs());
         let largest = if d.x > d.y && d.x > d.z { 0 } else { 1 + usize::from(d.y <= d.z) };
         let [x, y, z] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][largest];
-        let shear = [dir[x] / dir[z], dir[y] / dir[z], 1.0 / dir[z]];
-        BoxRay { origin, origin_error, dir, inv: dir.recip(), axes: [x as u8, y as u8, z as u8], shear }
+        ([x, y, z], [dir[x] / dir[z], dir[y] / dir[z], 1.0 / dir[z]])
     }
 
     /// Whether the ray can hit anything at all.
     #[inline]
     pub(super) fn is_valid(&self) -> bool {
-        self.origin.is_finite() && self.shear[2].is_finite() && self.dir.is_finite()
+        // The smallest reciprocal is that of the largest component.
+        self.origin.is_finite() && self.inv.abs().min_element().is_finite() && self.dir.is_finite()
     }
 
     /// The largest distance along an axis from the origin to a point of `bounds`.

@@ -7,12 +7,15 @@ use super::lanes::{Lanes, Machine, Work};
 use super::node::{self, Child, MAX_COUNT, Node, Rows};
 use super::ray::{BoxRay, Slabs};
 use super::traverse::walk;
+use super::few::{Few, FEW};
 use crate::math::Aabb;
 
 /// A tree over boxes: the top level of a scene.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     nodes: Vec<Rows>,
+    /// All boxes in one row of blocks, where they are few: no tree is needed then.
+    few: Option<Few>,
     bounds: Aabb,
     machine: Machine,
 }
@@ -27,7 +30,8 @@ impl Bvh {
             (0u32..).zip(boxes).filter(|(_, b)| solid(b)).map(|(i, b)| Item::new(b, i)).collect();
         let bounds = boxes.iter().filter(|b| solid(b)).fold(Aabb::EMPTY, |all, b| all.union(*b));
         let nodes = nodes(&mut items);
-        Bvh { nodes, bounds, machine: Machine::detect() }
+        let few = (items.len() <= FEW).then(|| Few::of(&nodes));
+        Bvh { nodes, few, bounds, machine: Machine::detect() }
     }
 
     /// The box around everything, empty for a tree of nothing.
@@ -38,14 +42,34 @@ impl Bvh {
     /// Nearest boxes first, calls `visit(box index, t_max)` for every box that the ray enters at a
     /// t in [0, t_max]; `Some(t)` lowers t_max to `t`.
     #[inline]
-    pub fn nearest(&self, ray: &BoxRay, t_max: f32, visit: impl FnMut(u32, f32) -> Option<f32>) {
+    pub fn nearest(&self, ray: &BoxRay, t_max: f32, mut visit: impl FnMut(u32, f32) -> Option<f32>) {
+        if let Some(few) = &self.few {
+            let entered = few.entered(self.machine, ray, &self.bounds, t_max, true);
+            let mut limit = t_max;
+            for &key in entered.keys() {
+                if f32::from_bits((key >> 32) as u32) > Few::limit(limit) {
+                    return;
+                }
+                limit = visit(key as u32, limit).map_or(limit, |t| t.min(limit));
+            }
+            return;
+        }
         self.machine.run(Nearest { tree: self, ray, t_max, visit });
     }
 
     /// Calls `visit(box index)` for boxes that the ray enters at a t in [0, t_max], in no
     /// particular order, until it returns true; returns whether it did.
     #[inline]
-    pub fn any(&self, ray: &BoxRay, t_max: f32, visit: impl FnMut(u32) -> bool) -> bool {
+    pub fn any(&self, ray: &BoxRay, t_max: f32, mut visit: impl FnMut(u32) -> bool) -> bool {
+        if let Some(few) = &self.few {
+            let entered = few.entered(self.machine, ray, &self.bounds, t_max, false);
+            for &key in entered.keys() {
+                if visit(key as u32) {
+                    return true;
+                }
+            }
+            return false;
+        }
         self.machine.run(Any { tree: self, ray, t_max, visit })
     }
 
@@ -67,7 +91,7 @@ impl Bvh {
 
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Rows>()
+        self.nodes.capacity() * size_of::<Rows>() + self.few.as_ref().map_or(0, Few::memory_bytes)
     }
 
     #[cfg(test)]

@@ -64,6 +64,9 @@ trait Surface {
     fn bounds(&self) -> (DVec3, DVec3);
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit>;
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface;
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+        self.surface(ray, hit)
+    }
     fn closed(&self) -> bool;
     fn area(&self) -> f64;
     fn sample_area(&self, u: [f64; 2]) -> AreaSample;
@@ -92,6 +95,7 @@ impl Shape {
     }
 
     /// The nearest hit with `t_min` < t < `t_max`, from either side.
+    #[inline]
     pub fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         each!(self, s => s.nearest(ray, t_min, t_max))
     }
@@ -99,6 +103,12 @@ impl Shape {
     /// The surface at a hit of this ray on this shape.
     pub fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         each!(self, s => s.surface(ray, hit))
+    }
+
+    /// The same, but `uv`, `dpdu` and `dpdv` may be left at 0 where they are dear to compute.
+    #[inline]
+    pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+        each!(self, s => s.bare_surface(ray, hit))
     }
 
     /// Whether the surface bounds a solid.
@@ -140,8 +150,10 @@ impl Shape {
 /// The error bound of a point that has been put onto a shape that fills these bounds. A direction that
 /// leaves along the surface may be tilted into it by rounding, by angles of a few ε; starting this far
 /// above it does not come down within the shape's extent.
+#[inline]
 fn p_error(min: DVec3, max: DVec3) -> f64 {
-    gamma(16) * (min.abs().max(max.abs()).length() + (max - min).length())
+    // Sums of the coordinates' sizes bound the lengths, without square roots.
+    gamma(16) * (min.abs().max(max.abs()).element_sum() + (max - min).element_sum())
 }
 
 #[cfg(test)]

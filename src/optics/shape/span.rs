@@ -17,12 +17,14 @@ impl Span {
         exit: ShapeHit { t: f64::INFINITY, face: 0 },
     };
 
+    #[inline]
     pub fn enter_at(&mut self, t: f64, face: u32) {
         if t > self.enter.t {
             self.enter = ShapeHit { t, face };
         }
     }
 
+    #[inline]
     pub fn leave_at(&mut self, t: f64, face: u32) {
         if t < self.exit.t {
             self.exit = ShapeHit { t, face };
@@ -30,6 +32,7 @@ impl Span {
     }
 
     /// Clips to the inner side of the plane n·x = h, given n·origin − h and n·dir. `None` outside.
+    #[inline]
     pub fn clip(mut self, height: f64, slope: f64, face: u32) -> Option<Span> {
         if slope > 0.0 {
             self.leave_at(-height / slope, face);
@@ -41,11 +44,15 @@ impl Span {
         self.not_empty()
     }
 
+    #[inline]
     pub fn not_empty(self) -> Option<Span> {
         (self.enter.t < self.exit.t).then_some(self)
     }
 
+    #[inline]
     pub fn nearest(&self, t_min: f64, t_max: f64) -> Option<ShapeHit> {
-        [self.enter, self.exit].into_iter().find(|hit| t_min < hit.t && hit.t < t_max && hit.t.is_finite())
+        let ahead = |hit: &ShapeHit| t_min < hit.t && hit.t.is_finite();
+        let hit = if ahead(&self.enter) { self.enter } else { self.exit };
+        (ahead(&hit) && hit.t < t_max).then_some(hit)
     }
 }

@@ -10,11 +10,13 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 pub struct Sphere {
     radius: f64,
     center: DVec3,
+    p_error: f64,
 }
 
 impl Sphere {
     pub fn new(radius: f64, center: DVec3) -> Sphere {
-        Sphere { radius, center }
+        let p_error = super::p_error(center - radius, center + radius);
+        Sphere { radius, center, p_error }
     }
 
     /// Where on its way a ray from outside is nearest to the centre; `None` if that is behind it.
@@ -47,16 +49,16 @@ impl Surface for Sphere {
         (self.center - self.radius, self.center + self.radius)
     }
 
+    #[inline]
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
-        robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?
-            .into_iter()
-            .find(|&t| t_min < t && t < t_max)
-            .map(|t| ShapeHit { t, face: 0 })
+        let [enter, exit] = robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?;
+        let t = if t_min < enter { enter } else { exit };
+        (t_min < t && t < t_max).then_some(ShapeHit { t, face: 0 })
     }
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        let n = (ray.at(hit.t) - self.center).try_normalize().unwrap_or(DVec3::Y);
-        let (min, max) = self.bounds();
+        let bare = self.bare_surface(ray, hit);
+        let n = bare.ng;
         let rim = libm::hypot(n.x, n.z);
         // Any closer to a pole, the derivative along u is too short to be given a direction.
         let (dpdu, dpdv) = if rim > 1e-30 {
@@ -65,14 +67,20 @@ impl Surface for Sphere {
         } else {
             (DVec3::ZERO, DVec3::ZERO)
         };
+        LocalSurface { uv: longitude_latitude(n), dpdu, dpdv, ..bare }
+    }
+
+    #[inline]
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+        let n = (ray.at(hit.t) - self.center).try_normalize().unwrap_or(DVec3::Y);
         LocalSurface {
             p: self.center + n * self.radius,
-            p_error: super::p_error(min, max),
+            p_error: self.p_error,
             ng: n,
             ns: n,
-            uv: longitude_latitude(n),
-            dpdu,
-            dpdv,
+            uv: DVec2::ZERO,
+            dpdu: DVec3::ZERO,
+            dpdv: DVec3::ZERO,
         }
     }
 

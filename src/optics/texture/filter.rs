@@ -12,11 +12,19 @@ pub fn pulses(x: f64, half: f64, low: f64, high: f64) -> f64 {
     if half > 1e7 {
         return high - low;
     }
+    // Wholly inside of a pulse, or of a gap within the period.
+    let (from, to) = (x - half, x + half);
+    if low <= from && to <= high {
+        return 1.0;
+    }
+    if (0.0 <= from && to <= low) || (high <= from && to <= 1.0) {
+        return 0.0;
+    }
     let integral = |t: f64| {
         let whole = t.floor();
         whole * (high - low) + ((t - whole).clamp(low, high) - low)
     };
-    ((integral(x + half) - integral(x - half)) / (2.0 * half)).clamp(0.0, 1.0)
+    ((integral(to) - integral(from)) / (2.0 * half)).clamp(0.0, 1.0)
 }
 
 /// Mean over the interval of the square wave of period 2 that is +1 on [0, 1) and −1 on [1, 2).

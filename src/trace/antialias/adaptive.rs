@@ -37,10 +37,12 @@ pub(super) fn pass(
         pass,
         threshold: threshold as f32,
         floor: FLOOR * tracer.reference_level,
-        points: HashMap::default(),
+        samples: Vec::new(),
+        whole: Whole::of(tile),
+        finer: HashMap::default(),
     };
     for (x, y) in tile.pixels() {
-        let mut average = Average::default();
+        let mut average = Average::of(tracer.wants);
         let size = lattice.steps;
         let mut used = 0;
         lattice.cell(x * size, y * size, size, &mut average, &mut used);
@@ -57,7 +59,36 @@ struct Lattice<'a> {
     pass: u32,
     threshold: f32,
     floor: f32,
-    points: HashMap<u64, Sample, BuildHasherDefault<Spread>>,
+    /// What has been traced; the tables below hold places in it.
+    samples: Vec<Sample>,
+    whole: Whole,
+    finer: HashMap<u64, u32, BuildHasherDefault<Spread>>,
+}
+
+/// The corners and centres of the tile's pixels, which are traced in any case.
+struct Whole {
+    x: u32,
+    y: u32,
+    /// Points in a row: corners and centres.
+    row: u32,
+    /// Places of the samples plus one.
+    places: Vec<u32>,
+}
+
+impl Whole {
+    fn of(tile: &Tile) -> Whole {
+        let (row, rows) = (2 * tile.width + 1, 2 * tile.height + 1);
+        Whole { x: tile.x, y: tile.y, row, places: vec![0; row as usize * rows as usize] }
+    }
+
+    /// The slot of a lattice point that is a multiple of half a pixel.
+    fn slot(&mut self, x: u32, y: u32, half: u32) -> Option<&mut u32> {
+        if (x | y) & (half - 1) != 0 {
+            return None;
+        }
+        let (column, line) = (x / half - 2 * self.x, y / half - 2 * self.y);
+        self.places.get_mut(line as usize * self.row as usize + column as usize)
+    }
 }
 
 impl Lattice<'_> {
@@ -68,46 +99,59 @@ impl Lattice<'_> {
         let corners = [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| self.point(x, y));
         if size == 1 {
             *used += 1;
-            return corners.iter().for_each(|c| average.add_finite(c, area / 4.0));
+            return corners.iter().for_each(|&c| average.add_finite(self.sample(c), area / 4.0));
         }
         let half = size / 2;
         let centre = self.point(x + half, y + half);
-        if self.differ(&corners, &centre) {
+        if self.differ(&corners, centre) {
             for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
                 self.cell(x + dx, y + dy, half, average, used);
             }
             return;
         }
         *used += 1;
-        average.add_finite(&centre, area / 2.0);
-        corners.iter().for_each(|c| average.add_finite(c, area / 8.0));
+        average.add_finite(self.sample(centre), area / 2.0);
+        corners.iter().for_each(|&c| average.add_finite(self.sample(c), area / 8.0));
     }
 
-    fn differ(&self, corners: &[Sample; 4], centre: &Sample) -> bool {
-        let all = corners.iter().chain([centre]).map(|s| s.radiance).filter(|r| r.is_finite());
+    fn sample(&self, place: u32) -> &Sample {
+        &self.samples[place as usize]
+    }
+
+    fn differ(&self, corners: &[u32; 4], centre: u32) -> bool {
+        let all = corners.iter().chain([&centre]).map(|&c| self.sample(c).radiance).filter(|r| r.is_finite());
         let (lo, hi) =
             all.fold((Vec3::INFINITY, Vec3::ZERO), |(lo, hi): (Vec3, Vec3), c| (lo.min(c), hi.max(c)));
         let contrast = (hi - lo) / (hi + lo + 2.0 * self.floor);
         contrast.max_element() > self.threshold
     }
 
-    fn point(&mut self, x: u32, y: u32) -> Sample {
+    /// The place of a lattice point's sample, traced when it is first asked for.
+    fn point(&mut self, x: u32, y: u32) -> u32 {
         let key = u64::from(y) << 32 | u64::from(x);
-        match self.points.entry(key) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(vacant) => {
-                let film = DVec2::new(f64::from(x), f64::from(y)) / f64::from(self.steps);
-                // Lattice points of different depths are different items.
-                let item = key ^ u64::from(self.steps) << 58;
-                let sequence = Sequence::new(self.tracer.plan.seed, Stage::Film, item, self.pass);
-                let sample = self.tracer.sample(film, sequence, self.scratch, self.tally);
-                if !sample.is_finite() {
-                    let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
-                    self.tally.health.non_finite(place);
-                }
-                *vacant.insert(sample)
+        let next = self.samples.len() as u32;
+        if let Some(slot) = self.whole.slot(x, y, self.steps / 2) {
+            if *slot != 0 {
+                return *slot - 1;
             }
+            *slot = next + 1;
+        } else {
+            match self.finer.entry(key) {
+                Entry::Occupied(known) => return *known.get(),
+                Entry::Vacant(vacant) => vacant.insert(next),
+            };
         }
+        let film = DVec2::new(f64::from(x), f64::from(y)) / f64::from(self.steps);
+        // Lattice points of different depths are different items.
+        let item = key ^ u64::from(self.steps) << 58;
+        let sequence = Sequence::new(self.tracer.plan.seed, Stage::Film, item, self.pass);
+        let sample = self.tracer.sample(film, sequence, self.scratch, self.tally);
+        if !sample.is_finite() {
+            let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
+            self.tally.health.non_finite(place);
+        }
+        self.samples.push(sample);
+        next
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::trace::PixelValue;
 use crate::math::{DVec3, Vec3};
-use crate::trace::Sample;
+use crate::trace::{Sample, Wants};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Average {
+    wants: Wants,
     weight: f64,
     radiance: DVec3,
     direct: DVec3,
@@ -20,13 +21,24 @@ pub(super) struct Average {
 }
 
 impl Average {
+    /// An empty mean; what is not wanted stays 0.
+    pub fn of(wants: Wants) -> Average {
+        Average { wants, ..Average::default() }
+    }
+
+    #[inline]
     pub fn add(&mut self, sample: &Sample, weight: f64) {
         let scaled = |v: Vec3| v.as_dvec3() * weight;
         self.weight += weight;
         self.radiance += scaled(sample.radiance);
-        self.direct += scaled(sample.direct);
-        self.reflection += scaled(sample.reflection);
-        self.refraction += scaled(sample.refraction);
+        if self.wants.split {
+            self.direct += scaled(sample.direct);
+            self.reflection += scaled(sample.reflection);
+            self.refraction += scaled(sample.refraction);
+        }
+        if !self.wants.first_hit {
+            return;
+        }
         self.albedo += scaled(sample.first.albedo);
         self.normal += scaled(sample.first.normal);
         self.position += scaled(sample.first.position);

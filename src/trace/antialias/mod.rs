@@ -29,14 +29,13 @@ fn pixel_number(tracer: &Tracer, x: u32, y: u32) -> u64 {
 /// n × n samples at the centres of a regular grid.
 fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
     for (x, y) in tile.pixels() {
-        let item = pixel_number(tracer, x, y);
-        let mut average = Average::default();
+        let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
+        let mut average = Average::of(tracer.wants);
         for i in 0..n * n {
             let index = pass.wrapping_mul(n * n).wrapping_add(i);
-            let sequence = Sequence::new(tracer.plan.seed, Stage::Film, item, index);
             let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
             let film = DVec2::new(f64::from(x), f64::from(y)) + within;
-            let sample = tracer.sample(film, sequence, scratch, tally);
+            let sample = tracer.sample(film, pixel.at(index), scratch, tally);
             add_finite(&mut average, &sample, Place { x, y, pass }, tally);
         }
         add(tile, x, y, average.value(n * n));
@@ -51,7 +50,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let [dx, dy] = sequence.pair();
         let film = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
         let sample = tracer.sample(film, sequence, scratch, tally);
-        let mut average = Average::default();
+        let mut average = Average::of(tracer.wants);
         add_finite(&mut average, &sample, Place { x, y, pass }, tally);
         add(tile, x, y, average.value(1));
     }

@@ -1,0 +1,184 @@
+"""Whole programs timed against each other, in turns, so that a busy machine slows all alike.
+
+Every row names what is compared, the least and the median of the turns, and a ratio. `benches/run`
+calls this; a peer that is not there is left out with a message.
+"""
+
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import images  # noqa: E402
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SCENES = os.path.join(ROOT, "scenes", "yardstick")
+PEERS = os.path.join(ROOT, "benches", "peers")
+TERRARIUM = os.environ.get("TERRARIUM", os.path.join(ROOT, "target", "release", "terrarium"))
+TURNS = int(os.environ.get("TURNS", "3"))
+
+
+class Run:
+    """What one run of a program took: seconds of wall and processor time, and its peak in MiB."""
+
+    def __init__(self, command, cwd):
+        start = time.perf_counter()
+        process = subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.output = process.stdout.read().decode(errors="replace")
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.wall = time.perf_counter() - start
+        self.cpu = usage.ru_utime + usage.ru_stime
+        self.peak = usage.ru_maxrss / 1024
+        if process.returncode:
+            raise RuntimeError("%s failed:\n%s" % (command[0], self.output[-800:]))
+
+
+def in_turns(commands, cwd, turns=TURNS):
+    """Runs each of the named commands `turns` times, in turns."""
+    runs = {name: [] for name in commands}
+    for _ in range(turns):
+        for name, command in commands.items():
+            runs[name].append(Run(command, cwd))
+    return runs
+
+
+def row(title, values, unit="s"):
+    print("  %-44s min %8.3f  median %8.3f %s" % (title, min(values), statistics.median(values), unit))
+
+
+def verdict(title, ratio, goal, better):
+    met = ratio <= goal if better == "less" else ratio >= goal
+    sign = "<=" if better == "less" else ">="
+    print("  %-44s %12.3f  (goal %s %.3g) %s" % (title, ratio, sign, goal, "met" if met else "MISSED"))
+
+
+def least(runs, what):
+    return min(getattr(r, what) for r in runs)
+
+
+def ours(scene, output, *more):
+    return [TERRARIUM, "render", os.path.join(SCENES, scene), "-o", output, "--progress", "none", *more]
+
+
+def povray(output, *antialiasing):
+    return ["povray", "+I" + os.path.join(PEERS, "primitives.pov"), "+O" + output, "+W1024", "+H768", "-D",
+            "+FP16", "File_Gamma=1.0", "-J", "+WT2", *antialiasing]
+
+
+def primitives(folder):
+    print("Y5 primitives, 1024x768, against POV-Ray")
+    scene = "primitives.ron"
+    mine = {
+        "terrarium grid(3)": ours(scene, "grid.exr", "--threads", "2"),
+        "terrarium adaptive()": ours(scene, "adaptive.exr", "--threads", "2", "--set", "antialiasing=adaptive()"),
+    }
+    peer = {}
+    if shutil.which("povray"):
+        peer = {
+            "POV-Ray 3x3": povray("grid.ppm", "+AM1", "+A0.0", "+R3"),
+            "POV-Ray adaptive 1 (+AM1 +A0.1 +R3)": povray("adaptive1.ppm", "+AM1", "+A0.1", "+R3"),
+            "POV-Ray adaptive 2 (+AM2 +A0.1 +R2)": povray("adaptive2.ppm", "+AM2", "+A0.1", "+R2"),
+        }
+    else:
+        print("  POV-Ray is not here (Debian: povray): left out")
+    runs = in_turns({**mine, **peer}, folder)
+    for name, took in runs.items():
+        row(name + ", CPU", [r.cpu for r in took])
+    if peer:
+        cpu = {name: least(took, "cpu") for name, took in runs.items()}
+        verdict("grid(3) / POV-Ray 3x3, CPU", cpu["terrarium grid(3)"] / cpu["POV-Ray 3x3"], 1 / 3, "less")
+        for name in list(peer)[1:]:
+            ratio = cpu["terrarium adaptive()"] / cpu[name]
+            verdict("adaptive() / " + name.split(" (")[0] + ", CPU", ratio, 1 / 3, "less")
+    Run(ours(scene, "reference.exr", "--set", "antialiasing=grid(16)"), folder)
+    reference = images.read(os.path.join(folder, "reference.exr"))
+    print("  relMSE against grid(16), without the worst 0.1 % of the pixels")
+    for name, command in {**mine, **peer}.items():
+        ppm = command[0] == "povray"
+        file = command[2][2:] if ppm else command[4]
+        error = images.rel_mse(images.read(os.path.join(folder, file)), reference, 4.0 if ppm else 1.0)
+        print("  %-44s %12.2e" % (name, error))
+
+
+def mitsuba_variants():
+    """The variants that can be imported here; drawing one pixel shows whether they run."""
+    found = []
+    for variant in ("scalar_rgb", "llvm_ad_rgb"):
+        test = "import mitsuba; mitsuba.set_variant('%s'); mitsuba.load_dict({'type': 'sphere'})" % variant
+        if subprocess.run([sys.executable, "-c", test], capture_output=True).returncode == 0:
+            found.append(variant)
+    return found
+
+
+def heightfield(folder):
+    print("Y4 heightfield, 1024x1024, 16 samples, against Mitsuba")
+    if not os.path.exists(os.path.join(SCENES, "heightfield.obj")):
+        print("  its mesh is not here (cargo run --release --example heightfield): left out")
+        return
+    stats = os.path.join(folder, "stats.json")
+    commands = {"terrarium": ours("heightfield.ron", "field.exr", "--threads", "2", "--stats", stats)}
+    variants = mitsuba_variants()
+    if not variants:
+        print("  Mitsuba is not here (pip install mitsuba): left out")
+    for variant in variants:
+        commands["Mitsuba " + variant] = [
+            sys.executable, os.path.join(PEERS, "heightfield_mitsuba.py"), variant,
+            os.path.join(SCENES, "heightfield.obj"), "mitsuba.exr"]
+    runs = in_turns(commands, folder)
+    for name, took in runs.items():
+        row(name + ", wall", [r.wall for r in took])
+        row(name + ", CPU", [r.cpu for r in took])
+        row(name + ", peak", [r.peak for r in took], "MiB")
+    for variant in variants:
+        ratio = least(runs["terrarium"], "wall") / least(runs["Mitsuba " + variant], "wall")
+        goal = 1.0 if variant == "scalar_rgb" else float("inf")
+        verdict("terrarium / Mitsuba %s, wall" % variant, ratio, goal, "less")
+    verdict("peak, MiB", least(runs["terrarium"], "peak"), 400, "less")
+
+
+def start_up(folder):
+    print("Start-up: primitives at 1x1 pixel, one sample")
+    command = ours("primitives.ron", "dot.exr", "--set", "image.width=1", "--set", "image.height=1",
+                   "--set", "antialiasing=none")
+    took = [Run(command, folder).wall * 1000 for _ in range(10)]
+    row("whole process, wall", took, "ms")
+    verdict("start-up, ms", min(took), 50, "less")
+
+
+def threads(folder):
+    print("Threads: primitives with grid(3), the tracing stage alone")
+    stats = os.path.join(folder, "stats.json")
+    seconds = {1: [], 2: []}
+    for _ in range(max(TURNS, 5)):
+        for n, taken in seconds.items():
+            Run(ours("primitives.ron", "threads.exr", "--threads", str(n), "--stats", stats), folder)
+            with open(stats) as file:
+                taken.append(trace_seconds(file.read()))
+    for n, taken in seconds.items():
+        row("%d thread%s" % (n, "s" if n > 1 else ""), taken)
+    verdict("speed-up", min(seconds[1]) / min(seconds[2]), 1.9, "more")
+
+
+def trace_seconds(stats):
+    found = re.search(r'"name":\s*"trace",\s*"seconds":\s*([0-9.e+-]+)', stats)
+    if not found:
+        raise RuntimeError("the statistics have no stage `trace`")
+    return float(found.group(1))
+
+
+def main():
+    wanted = sys.argv[1:] or ["primitives", "heightfield", "start_up", "threads"]
+    with tempfile.TemporaryDirectory() as folder:
+        for name in wanted:
+            {"primitives": primitives, "heightfield": heightfield, "start_up": start_up,
+             "threads": threads}[name](folder)
+            print(flush=True)
+
+
+main()
