@@ -43,8 +43,14 @@ def in_turns(commands, cwd, turns=TURNS):
     """Runs each of the named commands `turns` times, in turns."""
     runs = {name: [] for name in commands}
     for _ in range(turns):
-        for name, command in commands.items():
-            runs[name].append(Run(command, cwd))
+        for name in list(runs):
+            try:
+                runs[name].append(Run(commands[name], cwd))
+            except RuntimeError as failure:
+                if commands[name][0] == TERRARIUM:
+                    raise
+                print("  %s does not run here: left out (%s)" % (name, str(failure).splitlines()[-1].strip()))
+                del runs[name]
     return runs
 
 
@@ -90,7 +96,8 @@ def primitives(folder):
     runs = in_turns({**mine, **peer}, folder)
     for name, took in runs.items():
         row(name + ", CPU", [r.cpu for r in took])
-    if peer:
+    peer = {name: command for name, command in peer.items() if name in runs}
+    if peer and "POV-Ray 3x3" in peer:
         cpu = {name: least(took, "cpu") for name, took in runs.items()}
         verdict("grid(3) / POV-Ray 3x3, CPU", cpu["terrarium grid(3)"] / cpu["POV-Ray 3x3"], 1 / 3, "less")
         for name in list(peer)[1:]:
@@ -135,7 +142,7 @@ def heightfield(folder):
         row(name + ", wall", [r.wall for r in took])
         row(name + ", CPU", [r.cpu for r in took])
         row(name + ", peak", [r.peak for r in took], "MiB")
-    for variant in variants:
+    for variant in (v for v in variants if "Mitsuba " + v in runs):
         ratio = least(runs["terrarium"], "wall") / least(runs["Mitsuba " + variant], "wall")
         goal = 1.0 if variant == "scalar_rgb" else float("inf")
         verdict("terrarium / Mitsuba %s, wall" % variant, ratio, goal, "less")

@@ -6,7 +6,7 @@ import mitsuba as mi
 
 variant, mesh, out = sys.argv[1:4]
 mi.set_variant(variant)
-mi.Thread.thread().logger().set_log_level(mi.LogLevel.Warn)
+mi.logger().set_log_level(mi.LogLevel.Warn)
 
 scene = mi.load_dict({
     "type": "scene",
