@@ -100,7 +100,12 @@ impl Tracer<'_> {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
             return deposit(sample, branch.class, branch.throughput * self.leaving(&branch));
         };
-        let surface = self.world.surface(&branch.ray, &hit);
+        let mut surface = self.world.surface(&branch.ray, &hit);
+        if self.world.instances[hit.instance as usize].rank != 0
+            && let Some(opaque) = self.world.opaque_at(&branch.ray, &surface)
+        {
+            surface = self.world.surface(&branch.ray, &opaque);
+        }
         let branch = Branch { throughput: branch.throughput * self.transmittance(&branch.media, surface.t), ..branch };
         let wo = -branch.ray.dir;
         let shading = Shading::new(self.world, &surface, wo, &branch.cone);
