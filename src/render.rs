@@ -109,7 +109,11 @@ fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
     let mut warnings = Vec::new();
     for (event, count) in health.excesses() {
         let places: Vec<String> = health.places.iter().take(3).map(ToString::to_string).collect();
-        let at = if event == Rare::NonFiniteSample { format!(", first at {}", places.join("; ")) } else { String::new() };
+        let at = if event == Rare::NonFiniteSample {
+            format!(", first at {}", places.join("; "))
+        } else {
+            String::new()
+        };
         warnings.push(format!(
             "{}: {count} in {} samples, more than {} is unhealthy{at}",
             event.name(),

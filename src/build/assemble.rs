@@ -133,18 +133,20 @@ impl Transmissive {
             return 0.0;
         }
         // Single-precision vertices are rounded by half an ulp of their coordinates in object space.
-        self.ranked.iter().map(|&i| {
-            let instance = &instances[i as usize];
-            let geometry = &geometries[instance.geometry as usize];
-            let (min, max) = geometry.bounds();
-            let reach = min.abs().max(max.abs()).max_element() * instance.placement.stretch();
-            let ulps = match geometry {
-                Geometry::Shape(_) => 64.0 * f64::EPSILON,
-                Geometry::Mesh(_) => 4.0 * f64::from(f32::EPSILON),
-            };
-            reach * ulps
-        })
-        .fold(0.0, f64::max)
+        self.ranked
+            .iter()
+            .map(|&i| {
+                let instance = &instances[i as usize];
+                let geometry = &geometries[instance.geometry as usize];
+                let (min, max) = geometry.bounds();
+                let reach = min.abs().max(max.abs()).max_element() * instance.placement.stretch();
+                let ulps = match geometry {
+                    Geometry::Shape(_) => 64.0 * f64::EPSILON,
+                    Geometry::Mesh(_) => 4.0 * f64::from(f32::EPSILON),
+                };
+                reach * ulps
+            })
+            .fold(0.0, f64::max)
     }
 
     /// A warning for each mesh that light can enter and that is not closed.

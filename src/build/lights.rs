@@ -31,9 +31,11 @@ pub(super) fn translate(
         let at = |p: &[f64; 3]| DVec3::from(*p) - origin;
         let samples = plan.light_samples(light);
         let kind = match light {
-            Light::Point { position, intensity, falloff } => {
-                Some(EmitterKind::Point { position: at(position), intensity: rgb(intensity), falloff: *falloff })
-            }
+            Light::Point { position, intensity, falloff } => Some(EmitterKind::Point {
+                position: at(position),
+                intensity: rgb(intensity),
+                falloff: *falloff,
+            }),
             Light::Spot { position, target, intensity, inner_deg, outer_deg } => Some(EmitterKind::Spot {
                 position: at(position),
                 axis: (DVec3::from(*target) - DVec3::from(*position)).normalize(),
@@ -103,8 +105,8 @@ fn luminous_shape(
         }
         _ => return Ok(None),
     };
-    let placement = Placement::new(map)
-        .ok_or_else(|| BuildError::Invalid(format!("light `{name}` has no extent")))?;
+    let placement =
+        Placement::new(map).ok_or_else(|| BuildError::Invalid(format!("light `{name}` has no extent")))?;
     let material = surfaces.add_light(rgb(radiance), emits_back);
     let instance = placed.instances.len() as u32;
     placed.geometries.push(Geometry::Shape(shape));

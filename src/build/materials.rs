@@ -37,7 +37,10 @@ impl Surfaces {
     }
 
     pub fn id(&self, name: &str) -> Result<MaterialId, BuildError> {
-        self.ids.get(name).copied().ok_or_else(|| BuildError::Invalid(format!("no material is named `{name}`")))
+        self.ids
+            .get(name)
+            .copied()
+            .ok_or_else(|| BuildError::Invalid(format!("no material is named `{name}`")))
     }
 
     /// A material that only emits, for a light with an extent.
@@ -96,10 +99,16 @@ impl Textures<'_> {
     fn material(&mut self, m: &Described) -> Result<Material, BuildError> {
         let mut relief = Vec::new();
         if let Some(map) = &m.bump_map {
-            relief.push(Relief::BumpMap { texture: self.id(&map.texture, TextureUse::Data)?, height: map.height_m });
+            relief.push(Relief::BumpMap {
+                texture: self.id(&map.texture, TextureUse::Data)?,
+                height: map.height_m,
+            });
         }
         if let Some(map) = &m.normal_map {
-            relief.push(Relief::NormalMap { texture: self.id(&map.texture, TextureUse::Data)?, strength: map.strength });
+            relief.push(Relief::NormalMap {
+                texture: self.id(&map.texture, TextureUse::Data)?,
+                strength: map.strength,
+            });
         }
         let weights = [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission];
         let [diffuse, specular, reflection, transmission, emission] = weights.map(|w| self.weight(w));
@@ -118,9 +127,15 @@ impl Textures<'_> {
             textured: false,
         };
         let textured = !material.relief.is_empty()
-            || [material.diffuse, material.specular, material.reflection, material.transmission, material.emission]
-                .iter()
-                .any(Weight::textured);
+            || [
+                material.diffuse,
+                material.specular,
+                material.reflection,
+                material.transmission,
+                material.emission,
+            ]
+            .iter()
+            .any(Weight::textured);
         Ok(Material { textured, ..material })
     }
 }

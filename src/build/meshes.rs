@@ -68,8 +68,7 @@ fn averaged_normals(read: &obj::ObjMesh) -> Vec<Vec3> {
     if read.welded.is_empty() {
         return TriangleMesh::angle_weighted_normals(&read.positions, &read.triangles);
     }
-    let welded: Vec<[u32; 3]> =
-        read.triangles.iter().map(|t| t.map(|v| read.welded[v as usize])).collect();
+    let welded: Vec<[u32; 3]> = read.triangles.iter().map(|t| t.map(|v| read.welded[v as usize])).collect();
     let normals = TriangleMesh::angle_weighted_normals(&read.positions, &welded);
     read.welded.iter().map(|&v| normals[v as usize]).collect()
 }

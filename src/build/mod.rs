@@ -48,10 +48,8 @@ pub struct Built {
 
 /// Builds the world of a checked scene. Asset paths in it are relative to the current folder.
 pub fn build(scene: &Scene, plan: &Plan) -> Result<Built, BuildError> {
-    let description = scene
-        .camera
-        .as_ref()
-        .ok_or_else(|| BuildError::Invalid("the scene has no camera".to_owned()))?;
+    let description =
+        scene.camera.as_ref().ok_or_else(|| BuildError::Invalid("the scene has no camera".to_owned()))?;
     let origin = DVec3::from(description.target);
     let mut surfaces = materials::Surfaces::load(scene)?;
     let mut placed = objects::place(scene, origin, &surfaces)?;
@@ -66,7 +64,9 @@ impl From<images::ImageError> for BuildError {
         match error {
             images::ImageError::Io { .. } => BuildError::Io(message),
             images::ImageError::NotSupported { .. } => BuildError::NotSupported(message),
-            images::ImageError::Invalid { .. } | images::ImageError::TooLarge { .. } => BuildError::Invalid(message),
+            images::ImageError::Invalid { .. } | images::ImageError::TooLarge { .. } => {
+                BuildError::Invalid(message)
+            }
         }
     }
 }

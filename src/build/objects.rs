@@ -137,7 +137,12 @@ impl<'a> Placer<'a> {
             geometries.len() as u32 - 1
         })?;
         if let Some(unknown) = parts.names().find(|name| !loaded.parts.iter().any(|p| is(p, name))) {
-            let known: Vec<&str> = loaded.parts.iter().flat_map(|p| [p.group.as_str(), p.material.as_str()]).filter(|n| !n.is_empty()).collect();
+            let known: Vec<&str> = loaded
+                .parts
+                .iter()
+                .flat_map(|p| [p.group.as_str(), p.material.as_str()])
+                .filter(|n| !n.is_empty())
+                .collect();
             return Err(BuildError::Invalid(format!(
                 "{path} has no part named `{unknown}`; it has {}",
                 if known.is_empty() { "none".to_owned() } else { format!("`{}`", known.join("`, `")) }
@@ -196,7 +201,9 @@ impl<'a> Placer<'a> {
                 BuildError::Invalid(format!("the transforms of object `{}` flatten it", name()))
             })?;
         if self.placed.instances.len() >= MAX_INSTANCES {
-            return Err(BuildError::NotSupported(format!("the scene has more than {MAX_INSTANCES} instances")));
+            return Err(BuildError::NotSupported(format!(
+                "the scene has more than {MAX_INSTANCES} instances"
+            )));
         }
         let bindings = &mut self.placed.bindings;
         let binding = *self.binding_ids.entry(binding).or_insert_with_key(|materials| {
@@ -249,7 +256,10 @@ fn analytic(shape: &Described) -> Option<Shape> {
             };
             Shape::Polyhedron(Polyhedron::new(solid, *radius))
         }
-        Described::Mesh { .. } | Described::Group { .. } | Described::Instance { .. } | Described::Scatter(_) => {
+        Described::Mesh { .. }
+        | Described::Group { .. }
+        | Described::Instance { .. }
+        | Described::Scatter(_) => {
             return None;
         }
     })
@@ -299,9 +309,8 @@ pub(super) fn used_materials(scene: &Scene) -> HashSet<String> {
     let mut todo: Vec<&Object> = scene.objects.iter().collect();
     while let Some(object) = todo.pop() {
         used.extend(object.material.clone());
-        let mut definition = |name: &String| {
-            scene.definitions.get(name).filter(|_| seen.insert(name.clone()))
-        };
+        let mut definition =
+            |name: &String| scene.definitions.get(name).filter(|_| seen.insert(name.clone()));
         match &object.shape {
             Described::Group { objects } => todo.extend(objects),
             Described::Instance { of } => todo.extend(definition(of)),

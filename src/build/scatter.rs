@@ -25,7 +25,8 @@ pub(super) fn strew<'a>(
     scatter: &'a Scatter,
     context: Context<'a>,
 ) -> Result<(), BuildError> {
-    let invalid = |message: String| BuildError::Invalid(format!("scatter over `{}`: {message}", scatter.over));
+    let invalid =
+        |message: String| BuildError::Invalid(format!("scatter over `{}`: {message}", scatter.over));
     let patches = carrier(placer, scatter, context)?;
     let total: f64 = patches.iter().map(|p| p.area).sum();
     if !(total > 0.0) {
@@ -43,7 +44,10 @@ pub(super) fn strew<'a>(
                 (scatter.max_slope_deg >= 90.0 || up.y >= cos_max_slope).then_some((p, up))
             })
             .ok_or_else(|| {
-                invalid(format!("no ground flatter than {}° was found in {MAX_DRAWS} draws", scatter.max_slope_deg))
+                invalid(format!(
+                    "no ground flatter than {}° was found in {MAX_DRAWS} draws",
+                    scatter.max_slope_deg
+                ))
             })?;
         let between = |range: [f64; 2], x: f64| range[0] + (range[1] - range[0]) * x;
         let scale = between(scatter.scale, random.value());
@@ -84,7 +88,9 @@ fn carrier<'a>(
         DAffine3::IDENTITY
     } else {
         let (object, world_from_parent) = find(&scene.objects, &scatter.over, DAffine3::IDENTITY)
-            .ok_or_else(|| BuildError::Invalid(format!("no object or definition is named `{}`", scatter.over)))?;
+            .ok_or_else(|| {
+                BuildError::Invalid(format!("no object or definition is named `{}`", scatter.over))
+            })?;
         placer.carry(object, Context { world_from_parent, ..context })?;
         placer.own_from_scene(context)
     };
@@ -116,7 +122,8 @@ fn patch(geometry: &Geometry, index: u32, placement: Placement) -> Patch {
         Geometry::Mesh(mesh) => {
             let mut sum = 0.0;
             cumulative.extend(mesh.surface.triangles.iter().map(|triangle| {
-                let [a, b, c] = triangle.map(|v| placement.point(mesh.surface.positions[v as usize].as_dvec3()));
+                let [a, b, c] =
+                    triangle.map(|v| placement.point(mesh.surface.positions[v as usize].as_dvec3()));
                 sum += 0.5 * (b - a).cross(c - a).length();
                 sum
             }));
@@ -127,7 +134,8 @@ fn patch(geometry: &Geometry, index: u32, placement: Placement) -> Patch {
             let n = 32;
             let mean = (0..n * n)
                 .map(|i| {
-                    let u = [(f64::from(i / n) + 0.5) / f64::from(n), (f64::from(i % n) + 0.5) / f64::from(n)];
+                    let u =
+                        [(f64::from(i / n) + 0.5) / f64::from(n), (f64::from(i % n) + 0.5) / f64::from(n)];
                     area_factor(&placement, shape.sample_area(u).ng)
                 })
                 .sum::<f64>()
@@ -158,7 +166,8 @@ fn draw(placer: &Placer, patches: &[Patch], total: f64, random: &mut Counter) ->
             let i = patch.cumulative.partition_point(|&sum| sum <= at).min(patch.cumulative.len() - 1);
             let corners = mesh.surface.triangles[i].map(|v| mesh.surface.positions[v as usize].as_dvec3());
             let root = u[0].sqrt();
-            let p = corners[0] * (1.0 - root) + corners[1] * (root * (1.0 - u[1])) + corners[2] * (root * u[1]);
+            let p =
+                corners[0] * (1.0 - root) + corners[1] * (root * (1.0 - u[1])) + corners[2] * (root * u[1]);
             let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).try_normalize()?;
             Some((patch.placement.point(p), patch.placement.normal(n)))
         }

@@ -7,7 +7,9 @@
 use super::bvh::{BoxRay, Bvh, TriangleBvh};
 use super::media::Medium;
 use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
-use crate::optics::{Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Texture, TriangleMesh};
+use crate::optics::{
+    Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Texture, TriangleMesh,
+};
 
 /// Everything that rays need.
 pub struct World {
@@ -97,10 +99,9 @@ impl Geometry {
     fn nearest(&self, local: &Ray, t_max: f64) -> Option<(f64, u32, [f32; 3])> {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
-            Geometry::Mesh(mesh) => mesh
-                .tree
-                .nearest(&box_ray(local), round_up(t_max))
-                .map(|h| (f64::from(h.t), h.triangle, h.b)),
+            Geometry::Mesh(mesh) => {
+                mesh.tree.nearest(&box_ray(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
+            }
         }
     }
 
@@ -161,8 +162,8 @@ impl World {
             let pick = |bit: u32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
             placement.point(DVec3::new(pick(1, min.x, max.x), pick(2, min.y, max.y), pick(4, min.z, max.z)))
         });
-        let (lo, hi) = corners
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+        let (lo, hi) =
+            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
         // Double-precision rounding of the placement itself.
         let pad = (lo.abs().max(hi.abs())) * 1e-14;
         Aabb::from_f64(lo - pad, hi + pad)

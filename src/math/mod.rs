@@ -13,7 +13,7 @@ pub mod sampling;
 
 pub use aabb::{Aabb, round_down, round_up};
 pub use frame::Frame;
-pub use health::{Health, Place, Rare};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
+pub use health::{Health, Place, Rare};
 pub use placement::Placement;
 pub use ray::Ray;

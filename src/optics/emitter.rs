@@ -15,14 +15,33 @@ pub struct Emitter {
 #[derive(Clone, Debug)]
 pub enum EmitterKind {
     /// W/sr, with the classic attenuation 1/(c0 + c1·d + c2·d²) where one is given.
-    Point { position: DVec3, intensity: Vec3, falloff: Option<[f64; 3]> },
-    Spot { position: DVec3, axis: DVec3, cos_inner: f64, cos_outer: f64, intensity: Vec3 },
+    Point {
+        position: DVec3,
+        intensity: Vec3,
+        falloff: Option<[f64; 3]>,
+    },
+    Spot {
+        position: DVec3,
+        axis: DVec3,
+        cos_inner: f64,
+        cos_outer: f64,
+        intensity: Vec3,
+    },
     /// `to_light` is the unit direction against which the light travels; W·m⁻².
-    Directional { to_light: DVec3, irradiance: Vec3 },
+    Directional {
+        to_light: DVec3,
+        irradiance: Vec3,
+    },
     /// A placed analytic shape whose material emits.
-    Shape { instance: u32 },
+    Shape {
+        instance: u32,
+    },
     /// The emitting triangles of a placed mesh; `choose` draws one by area.
-    Mesh { instance: u32, triangles: Vec<u32>, cumulative: Vec<f64> },
+    Mesh {
+        instance: u32,
+        triangles: Vec<u32>,
+        cumulative: Vec<f64>,
+    },
     Environment,
 }
 

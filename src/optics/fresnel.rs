@@ -60,9 +60,8 @@ mod tests {
     fn mirror_reflects_at_the_angle_of_incidence_within_1e_minus_6() {
         let mut random = Counter::new(1, Stage::Test, 0);
         for _ in 0..1_000_000 {
-            let mut unit = || {
-                DVec3::new(random.value() - 0.5, random.value() - 0.5, random.value() - 0.5).normalize()
-            };
+            let mut unit =
+                || DVec3::new(random.value() - 0.5, random.value() - 0.5, random.value() - 0.5).normalize();
             let (n, wo) = (unit(), unit());
             let wi = reflected(wo, n);
             assert!((wi.dot(n) - wo.dot(n)).abs() < 1e-6);
@@ -128,9 +127,8 @@ mod tests {
     fn refraction_obeys_snell_in_the_plane_of_incidence() {
         let mut random = Counter::new(2, Stage::Test, 0);
         for _ in 0..100_000 {
-            let mut unit = || {
-                DVec3::new(random.value() - 0.5, random.value() - 0.5, random.value() - 0.5).normalize()
-            };
+            let mut unit =
+                || DVec3::new(random.value() - 0.5, random.value() - 0.5, random.value() - 0.5).normalize();
             let n = unit();
             let mut wo = unit();
             if wo.dot(n) < 0.0 {

@@ -50,9 +50,15 @@ impl Weight {
 /// How a material bends the shading normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Relief {
-    NormalMap { texture: TextureId, strength: f64 },
+    NormalMap {
+        texture: TextureId,
+        strength: f64,
+    },
     /// Height of white above black, metres.
-    BumpMap { texture: TextureId, height: f64 },
+    BumpMap {
+        texture: TextureId,
+        height: f64,
+    },
 }
 
 /// The layers of a surface, from the outside in.

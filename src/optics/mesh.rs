@@ -102,8 +102,7 @@ impl TriangleMesh {
             return p;
         }
         let side = if front { ng } else { -ng };
-        let normals =
-            self.corner_normals(triangle, ng).map(|n| if n.dot(side) < 0.0 { -n } else { n });
+        let normals = self.corner_normals(triangle, ng).map(|n| if n.dot(side) < 0.0 { -n } else { n });
         // What all three are tilted by is no curvature.
         let tilt = (normals[0] + normals[1] + normals[2]) / 3.0 - side;
         let weights = [1.0 - b1 - b2, b1, b2];

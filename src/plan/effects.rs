@@ -62,7 +62,11 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             .into_iter()
             .any(|s| matches!(s, Source::Texture(_)))
     };
-    let lens = scene.camera.as_ref().filter(|c| c.aperture_m > 0.0).map(|c| format!("aperture of {} m", c.aperture_m));
+    let lens = scene
+        .camera
+        .as_ref()
+        .filter(|c| c.aperture_m > 0.0)
+        .map(|c| format!("aperture of {} m", c.aperture_m));
     vec![
         decision(Effect::Direct, light(&|_| true).or_else(emitting), "the scene has no light"),
         decision(

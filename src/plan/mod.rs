@@ -36,7 +36,10 @@ impl Plan {
         let progressive = scene.antialiasing == Antialiasing::Progressive;
         Plan {
             antialiasing: scene.antialiasing,
-            passes: passes.or(scene.render.passes).unwrap_or(if progressive { DEFAULT_PASSES } else { 1 }).max(1),
+            passes: passes
+                .or(scene.render.passes)
+                .unwrap_or(if progressive { DEFAULT_PASSES } else { 1 })
+                .max(1),
             seed: seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.

@@ -38,7 +38,13 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
 }
 
 /// All of it follows from the scene, the seed and the program: no times, no machine.
-pub(super) fn provenance(loaded: &Loaded, plan: &Plan, world: &World, tally: &Tally, film: &Film) -> Provenance {
+pub(super) fn provenance(
+    loaded: &Loaded,
+    plan: &Plan,
+    world: &World,
+    tally: &Tally,
+    film: &Film,
+) -> Provenance {
     let mut provenance = Provenance::new(&loaded.hash, plan.seed, plan.passes);
     provenance.plan = plan.text();
     let camera = &world.camera;

@@ -80,9 +80,13 @@ impl FromStr for Aov {
 
     fn from_str(name: &str) -> Result<Aov, String> {
         Aov::ALL.into_iter().find(|aov| aov.name() == name).ok_or_else(|| {
-            let nearest = Aov::ALL.into_iter().map(Aov::name).min_by_key(|n| strsim::damerau_levenshtein(n, name));
+            let nearest =
+                Aov::ALL.into_iter().map(Aov::name).min_by_key(|n| strsim::damerau_levenshtein(n, name));
             let names = Aov::ALL.map(Aov::name).join(", ");
-            format!("no layer is named `{name}`; did you mean `{}`? All are: {names}", nearest.unwrap_or_default())
+            format!(
+                "no layer is named `{name}`; did you mean `{}`? All are: {names}",
+                nearest.unwrap_or_default()
+            )
         })
     }
 }

@@ -60,7 +60,13 @@ pub struct SceneSize {
 }
 
 impl Stats {
-    pub(super) fn new(stages: Vec<StageTime>, tally: &Tally, plan: &Plan, film: &Film, world: &World) -> Stats {
+    pub(super) fn new(
+        stages: Vec<StageTime>,
+        tally: &Tally,
+        plan: &Plan,
+        film: &Film,
+        world: &World,
+    ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
             name: event.name(),
@@ -85,7 +91,8 @@ impl Stats {
             memory: Memory {
                 geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()
                     + size_of_val(world.instances.as_slice()),
-                trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>() + world.tree.memory_bytes(),
+                trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>()
+                    + world.tree.memory_bytes(),
                 textures_bytes: world.textures.iter().map(|t| t.memory_bytes()).sum(),
                 film_bytes: film.memory_bytes(),
             },

@@ -24,9 +24,14 @@ pub struct LightSample {
 pub enum Arrival {
     Infinite,
     /// A point in the open, or just off an emitting surface.
-    Point { p: DVec3 },
+    Point {
+        p: DVec3,
+    },
     /// The first point of a convex emitter.
-    Shape { p: DVec3, instance: u32 },
+    Shape {
+        p: DVec3,
+        instance: u32,
+    },
 }
 
 impl Tracer<'_> {
@@ -143,7 +148,9 @@ impl Tracer<'_> {
         let u = [(choice - choice.floor()).clamp(0.0, 1.0 - f64::EPSILON), u[1]];
         let wi = match exponent {
             _ if choice < 1.0 => environment.sample(u)?.dir,
-            Some(exponent) if choice >= 2.0 => Frame::around(mirror).to_world(sampling::phong_lobe(exponent, u)),
+            Some(exponent) if choice >= 2.0 => {
+                Frame::around(mirror).to_world(sampling::phong_lobe(exponent, u))
+            }
             _ => Frame::around(shading.ns).to_world(sampling::cosine_hemisphere(u)),
         };
         let highlight = exponent.map_or(0.0, |exponent| sampling::phong_lobe_pdf(exponent, wi.dot(mirror)));
@@ -164,7 +171,9 @@ impl Tracer<'_> {
         let binding = &world.bindings[world.instances[hit.instance as usize].binding as usize];
         if let [only] = binding[..] {
             let material = &world.materials[only.0 as usize];
-            if let (crate::optics::Weight::Constant(radiance), true) = (material.emission, material.emits_back) {
+            if let (crate::optics::Weight::Constant(radiance), true) =
+                (material.emission, material.emits_back)
+            {
                 return radiance;
             }
         }

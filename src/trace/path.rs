@@ -70,7 +70,13 @@ impl Scratch {
 
 impl Tracer<'_> {
     /// The sample at `film` (pixels from the top left corner) of a sequence.
-    pub fn sample(&self, film: DVec2, sequence: Sequence, scratch: &mut Scratch, tally: &mut Tally) -> Sample {
+    pub fn sample(
+        &self,
+        film: DVec2,
+        sequence: Sequence,
+        scratch: &mut Scratch,
+        tally: &mut Tally,
+    ) -> Sample {
         let camera = &self.world.camera;
         let lens = if camera.lens_radius > 0.0 {
             crate::math::sampling::disk(sequence.dimension(LENS).pair())
@@ -103,7 +109,12 @@ impl Tracer<'_> {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
             return deposit(sample, branch.class, branch.throughput * self.leaving(branch));
         };
-        let surface = self.world.surface(&branch.ray, &hit);
+        let mut surface = self.world.surface(&branch.ray, &hit);
+        if self.world.instances[hit.instance as usize].rank != 0
+            && let Some(opaque) = self.world.opaque_at(&branch.ray, &surface)
+        {
+            surface = self.world.surface(&branch.ray, &opaque);
+        }
         branch.throughput *= self.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
         let shading = Shading::new(self.world, &surface, wo, &branch.cone);
@@ -277,8 +288,7 @@ impl Tracer<'_> {
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        base * self.world.ambient
-            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally)
+        base * self.world.ambient + self.direct(base, surface, shading, &branch.media, branch.sequence, tally)
     }
 
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {

@@ -71,9 +71,14 @@ fn broken_files_give_an_error_or_a_sound_mesh_and_never_a_panic() {
     let sound =
         cube(|v, t, n| format!("{v}/{t}/{n}")) + "g a\nusemtl b\nf -1//-1 -2//-1 -3//-1 \\\n -4//-1\ns 1\n";
     let check = |text: &[u8]| {
-        let start = Instant::now();
-        let both = [load(text), reference(text)];
-        assert!(start.elapsed() < Duration::from_secs(1), "{}", String::from_utf8_lossy(text));
+        // The best of three: a busy machine may stop any one of them for longer.
+        let mut both = [load(text), reference(text)];
+        let quick = (0..3).any(|_| {
+            let start = Instant::now();
+            both = [load(text), reference(text)];
+            start.elapsed() < Duration::from_secs(1)
+        });
+        assert!(quick, "{}", String::from_utf8_lossy(text));
         if let [Ok(a), Ok(b)] = &both {
             assert_same(a, b, text);
         }

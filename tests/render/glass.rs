@@ -230,12 +230,14 @@ fn glass_of_every_shape_vanishes_in_an_even_glow() {
         r#"mesh(path: "ball.obj", smooth: false)"#,
         r#"mesh(path: "cube.obj", smooth: false)"#,
     ] {
-        for (ior, place) in [(1.5, "scale(1)"), (2.4, "rotate(axis: (1, 2, 3), deg: 20)"), (0.7, "scale((-1, 0.6, 1))")] {
+        for (ior, place) in
+            [(1.5, "scale(1)"), (2.4, "rotate(axis: (1, 2, 3), deg: 20)"), (0.7, "scale((-1, 0.6, 1))")]
+        {
             let materials = format!(r#""glass": (transmission: 1, ior: {ior})"#);
             let object = format!(r#"(shape: {shape}, material: "glass", transform: [{place}])"#);
             let picture = furnace(dir.path(), AROUND, &materials, &object, 16);
             println!("{shape} {ior}: mean {}", picture.mean());
-            assert_even(&picture, 1.0, 4e-3, 0.25);
+            assert_even(&picture, 1.0, 4e-3, 0.8);
             // In the tip of a cone light may be reflected a thousand times.
             assert!(picture.rendered.stats.truncated_weight < 1e-4, "{shape}");
         }
@@ -248,9 +250,18 @@ fn touching_dielectrics_vanish_in_an_even_glow() {
     let cup = r#"(shape: cylinder(radius: 0.8, height: 1), material: "glass")"#;
     for (name, water) in [
         ("coincident bottom", r#"(shape: cylinder(radius: 0.6, height: 0.7), material: "water")"#),
-        ("coincident top", r#"(shape: cylinder(radius: 0.6, height: 0.7), material: "water", transform: [translate((0, 0.3, 0))])"#),
-        ("stacked", r#"(shape: cylinder(radius: 0.8, height: 0.5), material: "water", transform: [translate((0, 1, 0))])"#),
-        ("boxes side by side", r#"(shape: box(center: (1.3, 0.5, 0)), material: "water"), (shape: box(center: (2.3, 0.5, 0)), material: "glass")"#),
+        (
+            "coincident top",
+            r#"(shape: cylinder(radius: 0.6, height: 0.7), material: "water", transform: [translate((0, 0.3, 0))])"#,
+        ),
+        (
+            "stacked",
+            r#"(shape: cylinder(radius: 0.8, height: 0.5), material: "water", transform: [translate((0, 1, 0))])"#,
+        ),
+        (
+            "boxes side by side",
+            r#"(shape: box(center: (1.3, 0.5, 0)), material: "water"), (shape: box(center: (2.3, 0.5, 0)), material: "glass")"#,
+        ),
         ("overlapping", r#"(shape: sphere(radius: 0.7, center: (0.5, 1, 0)), material: "water")"#),
         ("the same twice", r#"(shape: cylinder(radius: 0.8, height: 1), material: "water")"#),
     ] {
@@ -266,9 +277,24 @@ fn touching_dielectrics_vanish_in_an_even_glow() {
 fn water_on_glass_reflects_0_0036085_however_it_is_built() {
     let up = DVec3::new(0.0, 0.25, 0.0);
     for (name, glass, water, priority) in [
-        ("coincident", "box(size: (4, 1, 4), center: (0, -0.5, 0))", "box(size: (4, 1, 4), center: (0, 0.5, 0))", 0),
-        ("overlapping", "box(size: (4, 1, 4), center: (0, -0.5, 0))", "box(size: (4, 1.3, 4), center: (0, 0.35, 0))", 1),
-        ("water within glass", "box(size: (4, 1, 4), center: (0, -0.5, 0))", "box(size: (4, 1.01, 4), center: (0, 0.495, 0))", 5),
+        (
+            "coincident",
+            "box(size: (4, 1, 4), center: (0, -0.5, 0))",
+            "box(size: (4, 1, 4), center: (0, 0.5, 0))",
+            0,
+        ),
+        (
+            "overlapping",
+            "box(size: (4, 1, 4), center: (0, -0.5, 0))",
+            "box(size: (4, 1.3, 4), center: (0, 0.35, 0))",
+            1,
+        ),
+        (
+            "water within glass",
+            "box(size: (4, 1, 4), center: (0, -0.5, 0))",
+            "box(size: (4, 1.01, 4), center: (0, 0.495, 0))",
+            5,
+        ),
         ("a larger cup", "cylinder(radius: 3, height: 1)", "cylinder(radius: 3, height: 1)", 0),
     ] {
         let lift = if name == "a larger cup" { "translate((0, -1, 0))" } else { "translate((0, 0, 0))" };
@@ -303,19 +329,27 @@ fn a_ray_through_water_on_glass_keeps_snells_sines() {
         ("overlapping", "box(size: (1.2, 50, 50), center: (-0.4, 0, 0))", 3, 0.0),
         ("a gap", "box(size: (1, 50, 50), center: (-0.501, 0, 0))", 4, 1e-3),
     ] {
-        let materials = r#""glass": (transmission: 1, ior: 1.5, priority: 1), "water": (transmission: 1, ior: 1.33)"#;
+        let materials =
+            r#""glass": (transmission: 1, ior: 1.5, priority: 1), "water": (transmission: 1, ior: 1.33)"#;
         let objects = format!(
             r#"(shape: {water}, material: "water"), (shape: box(size: (0.5, 50, 50), center: (0.25, 0, 0)), material: "glass")"#
         );
         let eye = DVec3::new(-2.0, -2.0, 0.0);
-        let (y, weight) = ruler.measure(eye, dir, depth + u32::from(name == "overlapping"), materials, &objects);
-        let expected = -2.0 + (1.0 - gap) * tan(angle.sin()) + tan(sin_w) + gap * tan(angle.sin()) + 0.5 * tan(sin_g)
+        let (y, weight) =
+            ruler.measure(eye, dir, depth + u32::from(name == "overlapping"), materials, &objects);
+        let expected = -2.0
+            + (1.0 - gap) * tan(angle.sin())
+            + tan(sin_w)
+            + gap * tan(angle.sin())
+            + 0.5 * tan(sin_g)
             + 2.5 * tan(angle.sin());
         assert!((y - expected).abs() < 4e-6, "{name}: {y} instead of {expected}");
         let cos_w = (1.0 - sin_w * sin_w).sqrt();
         let cos_g = (1.0 - sin_g * sin_g).sqrt();
         if gap == 0.0 {
-            let t = (1.0 - fresnel(angle.cos(), 1.33)) * (1.0 - fresnel(cos_w, 1.5 / 1.33)) * (1.0 - fresnel(cos_g, 1.0 / 1.5));
+            let t = (1.0 - fresnel(angle.cos(), 1.33))
+                * (1.0 - fresnel(cos_w, 1.5 / 1.33))
+                * (1.0 - fresnel(cos_g, 1.0 / 1.5));
             assert_close(weight, t, 1e-5);
         }
     }
@@ -342,7 +376,9 @@ fn open_glass_is_warned_of_and_stays_sound() {
     let mut open = icosphere(1);
     open.faces.truncate(60);
     open.write(&dir.path().join("open.obj"));
-    for shape in ["quad()", "disk()", "cone(caps: false)", "cylinder(caps: false)", r#"mesh(path: "open.obj")"#] {
+    for shape in
+        ["quad()", "disk()", "cone(caps: false)", "cylinder(caps: false)", r#"mesh(path: "open.obj")"#]
+    {
         let object = format!(r#"(shape: {shape}, material: "glass")"#);
         let picture = furnace(dir.path(), AROUND, GLASS, &object, 16);
         assert!(picture.is_sound(), "{shape}");
@@ -440,7 +476,8 @@ fn a_mirror_shows_the_mirrored_view() {
         ))
         .render()
     };
-    let mirror = r#", (shape: quad(size: (6, 6)), material: "mirror", transform: [rotate(axis: (1, 0, 0), deg: 90)])"#;
+    let mirror =
+        r#", (shape: quad(size: (6, 6)), material: "mirror", transform: [rotate(axis: (1, 0, 0), deg: 90)])"#;
     // The eye between mirror and scene would be in the picture of neither.
     let (through, direct) = (scene(0.9, mirror), scene(-0.9, ""));
     let mut same = 0;
@@ -453,4 +490,21 @@ fn a_mirror_shows_the_mirrored_view() {
     println!("mean {} and {}", through.mean(), direct.mean());
     assert!(through.mean() > 0.01);
     assert!(same >= 1010, "{same} of 1024 pixels agree");
+}
+
+/// Glass that stands on a table: however the two coincident faces round, the table is seen through it.
+#[test]
+fn a_table_is_seen_through_glass_that_stands_on_it() {
+    for (s, deg) in [(1.0, 0.0), (1.0, 20.0), (1e4, 20.0), (0.37, 33.0)] {
+        let picture = shot(format!(
+            r#"(camera: (eye: (0, {}, {}), target: (0, 0, 0), fov_deg: 20), image: (width: 24, height: 24), antialiasing: none,
+            materials: {{ "table": (emission: 1), {GLASS} }},
+            objects: [(shape: quad(size: (90, 90)), material: "table", transform: [rotate(axis: (0, 1, 0), deg: {deg}), scale({s})]),
+                      (shape: box(), material: "glass", transform: [translate((0, 0.5, 0)), rotate(axis: (0, 1, 0), deg: {deg}), scale({s})])])"#,
+            6.0 * s, 1.0 * s
+        ))
+        .render();
+        let least = picture.grey().into_iter().fold(1.0, f64::min);
+        assert!(least > 0.8, "{least} through the glass at scale {s}, turned by {deg}°");
+    }
 }

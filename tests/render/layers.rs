@@ -61,11 +61,14 @@ fn the_first_hit_of_a_plane_is_exact() {
 /// What meets nothing is 0 in every layer of the first surface.
 #[test]
 fn nothing_has_no_first_hit() {
-    let picture = shot(r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 4, height: 4), background: 1)"#)
-        .passes(2)
-        .aovs(&[Aov::Position, Aov::Depth, Aov::Normal, Aov::Albedo, Aov::ObjectId])
-        .render();
-    for (layer, channel) in [("position", "X"), ("depth", "Z"), ("normal", "Y"), ("albedo", "G"), ("object_id", "Y")] {
+    let picture =
+        shot(r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 4, height: 4), background: 1)"#)
+            .passes(2)
+            .aovs(&[Aov::Position, Aov::Depth, Aov::Normal, Aov::Albedo, Aov::ObjectId])
+            .render();
+    for (layer, channel) in
+        [("position", "X"), ("depth", "Z"), ("normal", "Y"), ("albedo", "G"), ("object_id", "Y")]
+    {
         assert!(picture.channel(layer, channel).iter().all(|&x| x == 0.0), "{layer}");
     }
 }

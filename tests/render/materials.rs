@@ -40,7 +40,8 @@ fn random_layers_in_an_even_glow_gain_nothing() {
 #[test]
 fn layers_under_ambient_add_up_exactly() {
     for (km, kd) in [(0.0, 1.0), (0.3, 0.5), (0.5, 0.0), (1.0, 0.7), (0.25, 1.0)] {
-        let found = plane(&format!("reflection: {km}, diffuse: {kd}"), "", "ambient: 1, background: 1,", "(1, 2, 1)");
+        let found =
+            plane(&format!("reflection: {km}, diffuse: {kd}"), "", "ambient: 1, background: 1,", "(1, 2, 1)");
         assert_close(found, km + (1.0 - km) * kd, 1e-6);
     }
 }
@@ -48,7 +49,9 @@ fn layers_under_ambient_add_up_exactly() {
 /// H37: a perfect mirror of any shape vanishes in an even glow.
 #[test]
 fn perfect_mirrors_vanish_in_an_even_glow() {
-    for shape in ["sphere()", "box()", "cone()", "cylinder()", "polyhedron(kind: dodecahedron)", "cone(caps: false)"] {
+    for shape in
+        ["sphere()", "box()", "cone()", "cylinder()", "polyhedron(kind: dodecahedron)", "cone(caps: false)"]
+    {
         let picture = shot(format!(
             r#"(camera: (eye: (2, 2, 3), target: (0, 0.2, 0)), image: (width: 32, height: 32), background: 1,
             materials: {{ "mirror": (reflection: 1, diffuse: 1) }}, objects: [(shape: {shape}, material: "mirror", transform: [scale((1, 0.7, 1.2))]), (shape: sphere(radius: 0.5), material: "mirror", transform: [translate((1.2, 0, 0))])])"#
@@ -88,7 +91,8 @@ fn the_highlight_is_normalised_phong() {
         );
         let eye = format!("({}, {}, 0)", -3.0 * outgoing.sin(), 3.0 * outgoing.cos());
         let found = plane(&format!("specular: 0.5, shininess: {n}"), &light, "", &eye);
-        let expected = 0.5 * (n + 2.0) / (2.0 * PI) * f64::to_radians(off).cos().powf(n) * incoming.cos() * 2.0;
+        let expected =
+            0.5 * (n + 2.0) / (2.0 * PI) * f64::to_radians(off).cos().powf(n) * incoming.cos() * 2.0;
         assert_close(found, expected, 1e-4);
     }
 }

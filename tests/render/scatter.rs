@@ -120,7 +120,12 @@ fn ground_too_steep_carries_nothing() {
     let cos = f64::to_radians(30.0).cos();
     assert!(found.iter().all(|p| p.y.abs() >= cos - 1e-9));
     // A wall carries nothing at all, and says so.
-    let wall = strewn(Path::new(""), 5, "shape: quad(), transform: [rotate(axis: (1, 0, 0), deg: 90)]", ", max_slope_deg: 30");
+    let wall = strewn(
+        Path::new(""),
+        5,
+        "shape: quad(), transform: [rotate(axis: (1, 0, 0), deg: 90)]",
+        ", max_slope_deg: 30",
+    );
     let error = wall.try_render().err().expect("no place on a wall").to_string();
     assert!(error.contains("30"), "{error}");
 }
@@ -168,7 +173,10 @@ fn copies_stand_where_the_carrying_object_stands() {
     let all = places(&shot);
     assert_eq!(all.len(), 501);
     for p in &all[1..] {
-        assert!((p.x - 10.0).abs() <= 1.0 + 1e-9 && (p.y - 3.0).abs() < 1e-9 && p.z.abs() <= 2.0 + 1e-9, "{p}");
+        assert!(
+            (p.x - 10.0).abs() <= 1.0 + 1e-9 && (p.y - 3.0).abs() < 1e-9 && p.z.abs() <= 2.0 + 1e-9,
+            "{p}"
+        );
     }
 }
 
@@ -192,7 +200,12 @@ fn a_thousand_copies_share_their_triangles() {
     assert_eq!(a.scene.triangles, 320);
     assert_eq!(b.scene.triangles, 320);
     assert_eq!(b.scene.instances, 1000);
-    assert!(b.memory.geometry_bytes < a.memory.geometry_bytes + 1000 * 1000, "{} and {}", a.memory.geometry_bytes, b.memory.geometry_bytes);
+    assert!(
+        b.memory.geometry_bytes < a.memory.geometry_bytes + 1000 * 1000,
+        "{} and {}",
+        a.memory.geometry_bytes,
+        b.memory.geometry_bytes
+    );
     // Almost none hides another: a thousand times the light, less overlap.
     let ratio = many.mean() / one.mean();
     assert!((800.0..1200.0).contains(&ratio), "{ratio}");

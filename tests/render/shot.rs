@@ -14,11 +14,7 @@ pub struct Shot {
 
 /// A shot of RON text.
 pub fn shot(text: impl Into<String>) -> Shot {
-    Shot {
-        text: text.into(),
-        folder: Path::new("").to_owned(),
-        options: Options::default(),
-    }
+    Shot { text: text.into(), folder: Path::new("").to_owned(), options: Options::default() }
 }
 
 impl Shot {

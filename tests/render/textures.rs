@@ -86,8 +86,11 @@ fn strong_maps_stay_sound() {
         [(x * 5 % 16) as f32 / 15.0, (y * 7 % 16) as f32 / 15.0, ((x + y) % 3) as f32 / 4.0]
     });
     let image = r#""wild": image(path: "wild.exr"), "noise": noise(a: 0, b: 1, size_m: 0.1)"#;
-    for relief in [r#"normal_map: (texture: "wild", strength: 10)"#, r#"bump_map: (texture: "noise", height_m: 5)"#] {
-        for layers in ["diffuse: 0.7", "reflection: 0.9", "transmission: 1", "specular: 0.9, shininess: 1000"] {
+    for relief in
+        [r#"normal_map: (texture: "wild", strength: 10)"#, r#"bump_map: (texture: "noise", height_m: 5)"#]
+    {
+        for layers in ["diffuse: 0.7", "reflection: 0.9", "transmission: 1", "specular: 0.9, shininess: 1000"]
+        {
             let picture = shelf(&format!("{layers}, {relief}"), image, dir.path()).render();
             assert!(picture.is_sound(), "{layers}, {relief}");
             assert_eq!(picture.rendered.stats.rare_events[0].count, 0, "non-finite samples");

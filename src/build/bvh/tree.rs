@@ -3,11 +3,11 @@
 
 use super::binned::{self, Item};
 use super::collapse::collapse;
+use super::few::{FEW, Few};
 use super::lanes::{Lanes, Machine, Work};
 use super::node::{self, Child, MAX_COUNT, Node, Rows};
 use super::ray::{BoxRay, Slabs};
 use super::traverse::walk;
-use super::few::{Few, FEW};
 use crate::math::Aabb;
 
 /// A tree over boxes: the top level of a scene.

@@ -1,3 +1,5 @@
+//! Image files, whole and broken: what is read, what is refused, and that nothing panics.
+
 use super::*;
 use crate::math::random::{Counter, Stage};
 use exr::prelude::WritableImage;

@@ -9,9 +9,9 @@
 //! pixels share them. Every value is a function of its lattice point and the pass alone.
 
 use super::Average;
-use crate::trace::Tile;
 use crate::math::random::{Sequence, Stage};
 use crate::math::{DVec2, Place, Vec3};
+use crate::trace::Tile;
 use crate::trace::{Sample, Scratch, Tally, Tracer};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -96,7 +96,8 @@ impl Lattice<'_> {
     /// is not divided weighs its centre by a half and its corners by an eighth each.
     fn cell(&mut self, x: u32, y: u32, size: u32, average: &mut Average, used: &mut u32) {
         let area = f64::from(size) * f64::from(size);
-        let corners = [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| self.point(x, y));
+        let corners =
+            [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| self.point(x, y));
         if size == 1 {
             *used += 1;
             return corners.iter().for_each(|&c| average.add_finite(self.sample(c), area / 4.0));

@@ -1,7 +1,7 @@
 //! The weighted mean of a pixel's samples within one pass, in double precision.
 
-use crate::trace::PixelValue;
 use crate::math::{DVec3, Vec3};
+use crate::trace::PixelValue;
 use crate::trace::{Sample, Wants};
 
 #[derive(Clone, Debug, Default)]

@@ -4,10 +4,10 @@ mod adaptive;
 mod average;
 
 use super::{Sample, Scratch, Tally, Tracer};
-use crate::plan::Antialiasing;
-use crate::trace::{PixelValue, Tile};
 use crate::math::random::{Sequence, Stage};
 use crate::math::{DVec2, Place};
+use crate::plan::Antialiasing;
+use crate::trace::{PixelValue, Tile};
 use average::Average;
 
 /// Adds one pass to every pixel of a tile.
