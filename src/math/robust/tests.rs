@@ -1,3 +1,5 @@
+//! Robust arithmetic against exact integers and known cancellations.
+
 use super::*;
 use crate::math::random::{Counter, Stage};
 

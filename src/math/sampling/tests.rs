@@ -1,3 +1,5 @@
+//! Warps against their densities.
+
 use super::*;
 use crate::math::random::{Counter, Stage};
 

@@ -1,3 +1,5 @@
+//! Directions and densities of environments against each other.
+
 use super::*;
 use crate::math::random::{Counter, Stage};
 

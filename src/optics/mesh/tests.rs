@@ -1,3 +1,5 @@
+//! Surfaces of meshes against closed forms, and rays that leave them.
+
 use super::*;
 use crate::math::Ray;
 use crate::math::random::{Counter, Stage};

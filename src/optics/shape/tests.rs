@@ -1,3 +1,5 @@
+//! Shapes against implicit functions, parity and closed forms.
+
 use super::*;
 use crate::math::random::{Counter, Sequence, Stage};
 use crate::math::sampling;

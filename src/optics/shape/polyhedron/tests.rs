@@ -1,3 +1,5 @@
+//! Regular solids against their known measures.
+
 use super::*;
 use crate::math::robust::UNIT;
 

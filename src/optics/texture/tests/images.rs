@@ -1,3 +1,5 @@
+//! Image lookups: wrapping, filtering and what they must keep.
+
 use super::*;
 
 #[test]

@@ -1,3 +1,5 @@
+//! Bent normals: neutral maps, and slopes against derivatives.
+
 use super::*;
 
 /// Frames as surfaces give them, singular ones included.

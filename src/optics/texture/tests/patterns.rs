@@ -1,3 +1,5 @@
+//! Patterns against supersampling and their own symmetries.
+
 use super::*;
 use noise::{fbm, gradient_noise};
 
