@@ -121,8 +121,6 @@ fn a_prism_bends_light_by_37_1808_degrees() {
 /// H49: the paraxial focus of a ball of 1.5 lies 1.5 radii from its centre.
 #[test]
 fn a_ball_lens_focuses_at_one_and_a_half_radii() {
-    let dir = folder();
-    icosphere(5).write(&dir.path().join("ball.obj"));
     let ruler = Ruler::new(4.0);
     let h = 1e-3;
     let ball = r#"(shape: sphere(), material: "glass")"#;
