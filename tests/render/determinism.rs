@@ -8,7 +8,7 @@ use terrarium::render::{Aov, Silent, render};
 
 fn scene(antialiasing: &str) -> Shot {
     shot(format!(
-        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0), aperture_m: 0.05), image: (width: 40, height: 30), antialiasing: {antialiasing},
+        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0), aperture_m: 0.05), image: (width: 40, height: 20), antialiasing: {antialiasing},
         textures: {{ "tiles": checker(a: 0.8, b: 0.3, squares: (9, 9)), "stone": noise(a: 0.1, b: 0.8, size_m: 0.3) }},
         materials: {{ "floor": (diffuse: texture("tiles"), specular: 0.1), "stone": (diffuse: texture("stone"), reflection: 0.2), "glass": (transmission: 1) }},
         lights: {{ "lamp": sphere(center: (-1, 4, 1), radius: 0.5, radiance: 9), "sky": environment(map: gradient(zenith: 0.4, horizon: 0.2, nadir: 0)) }},
@@ -111,8 +111,7 @@ fn ron_and_toml_and_their_conversions_render_the_same_bytes() {
     "#;
     let bytes = |text: &str, format| {
         let loaded = load_str(text, format, Path::new(""), &[]).unwrap_or_else(|e| panic!("{e:?}\n{text}"));
-        let mut options = terrarium::render::Options::default();
-        options.passes = Some(2);
+        let options = terrarium::render::Options { passes: Some(2), ..Default::default() };
         let rendered = render(&loaded, &options, &Silent).expect("it renders");
         (exr(&Picture { rendered }, dir.path()), loaded.scene)
     };

@@ -35,7 +35,7 @@ fn a_point_light_gives_intensity_times_cosine_over_squared_distance() {
     for (x, y, z) in [(0.0, 2.0, 0.0), (1.0, 2.0, -2.0), (30.0, 0.4, 0.0)] {
         let d2: f64 = x * x + y * y + z * z;
         let found = irradiance(&format!(r#""a": point(position: ({x}, {y}, {z}), intensity: 7)"#), 1);
-        assert_close(found, 7.0 * y / d2.sqrt() / d2, 2e-3 * (1.0_f64 / y).max(1e-3).min(1.0));
+        assert_close(found, 7.0 * y / d2.sqrt() / d2, 2e-3 * (1.0 / y).clamp(1e-3, 1.0));
     }
 }
 

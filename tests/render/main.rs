@@ -4,6 +4,7 @@
 //! Marks such as H17 number the hard cases of the field that a test guards against.
 
 mod antialiasing;
+mod broken_meshes;
 mod determinism;
 mod glass;
 mod layers;
@@ -11,6 +12,7 @@ mod light;
 mod materials;
 mod media;
 mod meshes;
+mod mirrors;
 mod robustness;
 mod scatter;
 mod seen_light;

@@ -22,7 +22,7 @@ fn an_absorbing_slab_dims_by_beer_and_lambert() {
             &format!("transmission: 1, ior: 1.5, absorption: {sigma}"),
             &format!(r#"(shape: box(size: ({thickness}, 9, 9)), material: "glass")"#),
         );
-        assert_close(found, 0.96f64.powi(2) * (-sigma * thickness as f64).exp(), 1e-5);
+        assert_close(found, 0.96f64.powi(2) * f64::exp(-sigma * thickness), 1e-5);
     }
 }
 
