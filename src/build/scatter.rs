@@ -29,7 +29,7 @@ pub(super) fn strew<'a>(
         |message: String| BuildError::Invalid(format!("scatter over `{}`: {message}", scatter.over));
     let patches = carrier(placer, scatter, context)?;
     let total: f64 = patches.iter().map(|p| p.area).sum();
-    if !(total > 0.0) {
+    if total.is_nan() || total <= 0.0 {
         return Err(invalid("the surface has no area".to_owned()));
     }
     let definitions: Vec<&Object> =

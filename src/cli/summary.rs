@@ -40,7 +40,7 @@ impl Summary<'_> {
             self.stats.stages.iter().map(|stage| format!("{} {:.2}", stage.name, stage.seconds)).collect();
         terminal.say(&format!("wrote {}", self.outputs.join(", ")));
         terminal.say(&format!("time: {} ({} s)", duration(self.seconds), stages.join(", ")));
-        let rays = serde_json::to_value(&self.stats.rays).unwrap_or_default();
+        let rays = serde_json::to_value(self.stats.rays).unwrap_or_default();
         let rays: Vec<String> = rays
             .as_object()
             .into_iter()

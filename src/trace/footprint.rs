@@ -48,7 +48,7 @@ fn in_uv(surface: &Surface, steps: [DVec3; 2]) -> [DVec2; 2] {
     let (u, v) = (surface.dpdu, surface.dpdv);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
-    if !(det > 1e-12 * uu * vv) {
+    if det.is_nan() || det <= 1e-12 * uu * vv {
         return [DVec2::ZERO; 2];
     }
     let inverse = 1.0 / det;

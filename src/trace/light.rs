@@ -128,7 +128,7 @@ impl Tracer<'_> {
         let (t, b) = plane_hit(&ray, corners)?;
         let hit = Hit { t, instance: index, primitive: triangle, b };
         let radiance = self.emitted_towards(&ray, &hit);
-        if !(pdf > 0.0) || radiance == Vec3::ZERO {
+        if pdf.is_nan() || pdf <= 0.0 || radiance == Vec3::ZERO {
             return None;
         }
         let there = self.world.surface(&ray, &hit);
