@@ -48,7 +48,7 @@ pub enum Antialiasing {
     /// antialiasing: adaptive(threshold: 0.05, depth: 3)
     /// ```
     Adaptive {
-        /// Relative luminance contrast above which a cell is divided: (max − min) / (max + min + 2·floor); 0 to 1.
+        /// Relative contrast, in any channel, above which a cell is divided: (max − min) / (max + min + 2·floor); 0 to 1.
         #[serde(default = "default_threshold")]
         threshold: f64,
         /// Subdivisions at most: a pixel is never divided finer than 2^depth × 2^depth; 1 to 8.
