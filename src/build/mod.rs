@@ -5,6 +5,8 @@
 mod assemble;
 pub mod bvh;
 mod camera;
+mod crossing;
+mod footprint;
 pub mod images;
 mod lights;
 mod materials;
@@ -13,13 +15,17 @@ mod meshes;
 pub mod obj;
 mod objects;
 mod scatter;
+mod shading;
 mod surface;
 mod world;
 
 use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
+pub use crossing::Crossing;
+pub use footprint::Cone;
 pub use media::MediaSet;
+pub use shading::Shading;
 use std::path::PathBuf;
 pub use surface::Surface;
 pub use world::{Geometry, Hit, Instance, World};

@@ -5,12 +5,10 @@
 
 mod antialias;
 mod direct;
-mod footprint;
 mod light;
 mod path;
 mod reference_level;
 mod sample;
-mod shade;
 mod tile;
 
 use crate::build::World;

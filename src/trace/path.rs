@@ -10,14 +10,11 @@
 //! more than about 1 / split_weight branches. (n₁/n₂)² is the compression of solid angle across an
 //! interface (Veach 1997, 5.2).
 
-use super::footprint::Cone;
 use super::sample::FirstHit;
-use super::shade::Shading;
 use super::{Sample, Tally, Tracer};
-use crate::build::{MediaSet, Surface};
+use crate::build::{Cone, Crossing, MediaSet, Shading, Surface};
 use crate::math::random::Sequence;
-use crate::math::{DVec2, DVec3, Rare, Ray, Vec3};
-use crate::optics::{Interface, reflected, refracted};
+use crate::math::{DVec2, Ray, Vec3};
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,25 +112,28 @@ impl Tracer<'_> {
         {
             surface = self.world.surface(&branch.ray, &opaque);
         }
-        branch.throughput *= self.transmittance(&branch.media, surface.t);
+        branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
         let shading = Shading::new(self.world, &surface, wo, &branch.cone);
         if self.wants.first_hit && branch.depth == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
-        if let Some((after, tolerance)) = self.crossing(branch, &surface, &shading, tally) {
-            if after.top() == branch.media.top() {
+        let crossing =
+            self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
+        if let Some(crossing) = crossing {
+            if crossing.after.top() == branch.media.top() {
                 // Within an object of higher priority this surface does not exist.
-                let ray = Ray::leaving(surface.p, tolerance, surface.ng, branch.ray.dir);
-                let next = Branch { ray, media: after, cone: branch.cone.after(surface.t), ..*branch };
+                let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
+                let cone = branch.cone.after(surface.t);
+                let next = Branch { ray, media: crossing.after, cone, ..*branch };
                 return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
             }
-            self.interface(branch, &surface, &shading, after, tolerance, todo, tally);
+            self.interface(branch, &surface, &shading, &crossing, todo, tally);
         }
         let radiance = shading.emitted() + self.shaded(branch, &surface, &shading, tally);
         deposit(sample, branch.class, branch.throughput * radiance);
         if shading.km != Vec3::ZERO {
-            let wi = self.above(reflected(wo, shading.ns), &shading, tally);
+            let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
             let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
             tally.rays.reflection += 1;
@@ -154,100 +154,37 @@ impl Tracer<'_> {
         }
     }
 
-    /// Beer–Lambert over `t` metres of the medium.
-    pub(super) fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
-        let (_, absorption) = self.world.medium(media);
-        if absorption == Vec3::ZERO {
-            return Vec3::ONE;
-        }
-        Vec3::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
-    }
-
-    /// The media behind a transmissive surface, with the offset that clears all surfaces that
-    /// coincide with it. `None` where nothing is transmitted.
-    fn crossing(
-        &self,
-        branch: &Branch,
-        surface: &Surface,
-        shading: &Shading,
-        tally: &mut Tally,
-    ) -> Option<(MediaSet, f64)> {
-        let world = self.world;
-        let rank = world.instances[surface.instance as usize].rank;
-        if rank == 0 || shading.kt == Vec3::ZERO {
-            return None;
-        }
-        let dir = branch.ray.dir;
-        let mut cross = |media: MediaSet, rank, inwards| {
-            media.crossed(rank, inwards).unwrap_or_else(|| {
-                tally.health.count(Rare::MediaOverflow);
-                media
-            })
-        };
-        let mut after = cross(branch.media, rank, dir.dot(surface.ng) < 0.0);
-        if world.coincidence == 0.0 {
-            return Some((after, surface.p_error));
-        }
-        let tolerance = 2.0 * world.coincidence.max(surface.p_error);
-        world.coincident(surface.p, surface.ng, dir, surface.instance, tolerance, |rank, inwards| {
-            after = cross(after, rank, inwards);
-        });
-        Some((after, 2.0 * tolerance))
-    }
-
     /// Pushes the reflected and the refracted branch of an interface.
-    #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
     fn interface(
         &self,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
-        after: MediaSet,
-        tolerance: f64,
+        crossing: &Crossing,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
     ) {
-        let wo = -branch.ray.dir;
         let (near, _) = self.world.medium(&branch.media);
-        let (far, _) = self.world.medium(&after);
+        let (far, _) = self.world.medium(&crossing.after);
         let eta = far / near;
-        let n = shading.ns;
-        let interface = Interface::new(wo.dot(n).max(0.0), eta);
+        let interface = shading.interface(eta);
         let weight = (Vec3::ONE - shading.km) * shading.kt;
         let cone = branch.cone.after(surface.t);
         if interface.reflectance > 0.0 {
-            let wi = self.above(reflected(wo, n), shading, tally);
-            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            let wi = shading.mirrored(&mut tally.health);
+            let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.reflection += 1;
             let weight = weight * interface.reflectance as f32;
             self.push(Branch { ray, cone, ..*branch }, weight, REFLECTED, Class::Reflection, todo, tally);
         }
         if interface.reflectance < 1.0 {
-            let mut wi = refracted(wo, n, eta, interface.cos_t);
-            if wi.dot(shading.ng) >= 0.0 {
-                tally.health.count(Rare::DirectionThroughSurface);
-                let flat = Interface::new(wo.dot(shading.ng).max(0.0), eta);
-                if flat.reflectance == 1.0 {
-                    return;
-                }
-                wi = refracted(wo, shading.ng, eta, flat.cos_t);
-            }
-            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
+            let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.refraction += 1;
             let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
-            let next = Branch { ray, media: after, cone: cone.refracted(eta), ..*branch };
+            let next = Branch { ray, media: crossing.after, cone: cone.refracted(eta), ..*branch };
             self.push(next, weight, REFRACTED, Class::Refraction, todo, tally);
         }
-    }
-
-    /// A mirrored direction that a bent shading normal has sent below the surface, mirrored back up.
-    fn above(&self, wi: DVec3, shading: &Shading, tally: &mut Tally) -> DVec3 {
-        let height = wi.dot(shading.ng);
-        if height > 0.0 {
-            return wi;
-        }
-        tally.health.count(Rare::DirectionThroughSurface);
-        (wi - shading.ng * (2.0 * height)).normalize()
     }
 
     /// Adds a branch, or drops it by chance in proportion to its weight, or by the depth limit.

@@ -3,7 +3,7 @@
 //! Akenine-Möller, Crassin, Boksansky, Belcour, Panteleev, Wright: Improved Shader and Texture Level
 //! of Detail Using Ray Cones, JCGT 10(1), 2021.
 
-use crate::build::Surface;
+use super::Surface;
 use crate::math::{DVec2, DVec3};
 use crate::optics::TexturePoint;
 
