@@ -5,6 +5,7 @@
 mod assemble;
 pub mod bvh;
 mod camera;
+mod contact;
 mod crossing;
 mod footprint;
 pub mod images;
@@ -22,6 +23,7 @@ mod world;
 use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
+pub use contact::{Contacts, Met};
 pub use crossing::Crossing;
 pub use footprint::Cone;
 pub use media::MediaSet;

@@ -12,7 +12,7 @@
 
 use super::sample::FirstHit;
 use super::{Sample, Tally, Tracer};
-use crate::build::{Cone, Crossing, MediaSet, Shading, Surface};
+use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{DVec2, Ray, Vec3};
 
@@ -106,29 +106,32 @@ impl Tracer<'_> {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
             return deposit(sample, branch.class, branch.throughput * self.leaving(branch));
         };
-        let mut surface = self.world.surface(&branch.ray, &hit);
-        if self.world.instances[hit.instance as usize].rank != 0
-            && let Some(opaque) = self.world.opaque_at(&branch.ray, &surface)
-        {
-            surface = self.world.surface(&branch.ray, &opaque);
-        }
+        let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
         branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
-        let shading = Shading::new(self.world, &surface, wo, &branch.cone);
+        let mut shading = Shading::new(self.world, &surface, wo, &branch.cone);
         if self.wants.first_hit && branch.depth == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
         let crossing =
             self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
-        if let Some(crossing) = crossing {
-            if crossing.after.top() == branch.media.top() {
-                // Within an object of higher priority this surface does not exist.
-                let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
-                let cone = branch.cone.after(surface.t);
-                let next = Branch { ray, media: crossing.after, cone, ..*branch };
-                return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
+        match (crossing, behind) {
+            (Some(crossing), Some(opaque)) if crossing.after.top() == branch.media.top() => {
+                // Nothing is left here, so that what is opaque shows.
+                surface = self.world.surface(&branch.ray, &opaque);
+                shading = Shading::new(self.world, &surface, wo, &branch.cone);
             }
-            self.interface(branch, &surface, &shading, &crossing, todo, tally);
+            (Some(crossing), _) => {
+                if crossing.after.top() == branch.media.top() {
+                    // Within an object of higher priority this surface does not exist.
+                    let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
+                    let cone = branch.cone.after(surface.t);
+                    let next = Branch { ray, media: crossing.after, cone, ..*branch };
+                    return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
+                }
+                self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally);
+            }
+            _ => {}
         }
         let radiance = shading.emitted() + self.shaded(branch, &surface, &shading, tally);
         deposit(sample, branch.class, branch.throughput * radiance);
@@ -154,13 +157,16 @@ impl Tracer<'_> {
         }
     }
 
-    /// Pushes the reflected and the refracted branch of an interface.
+    /// Pushes the reflected and the refracted branch of an interface; `touches` if something opaque lies
+    /// right behind it.
+    #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
     fn interface(
         &self,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
         crossing: &Crossing,
+        touches: bool,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
     ) {
@@ -179,7 +185,9 @@ impl Tracer<'_> {
         }
         if interface.reflectance < 1.0 {
             let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
-            let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
+            // From before the interface, which is no longer there for it, so that what touches is met.
+            let start = if touches { Ray::reaching } else { Ray::leaving };
+            let ray = start(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.refraction += 1;
             let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
             let next = Branch { ray, media: crossing.after, cone: cone.refracted(eta), ..*branch };
