@@ -2,6 +2,7 @@
 //! 8i + c of the next, and below the last level, leaf 8i + c. Leaves that follow one another lie
 //! together in space (they come from a kd-tree, in its order), so that is all it takes.
 
+use super::lanes::{self, Array, Lanes, Work};
 use crate::math::Vec3;
 
 const WIDTH: usize = 8;
@@ -47,26 +48,35 @@ impl Node {
     /// Squared distances to the boxes. None is larger than that to any point in its box, as computed
     /// in the same order, because rounding is monotone.
     #[inline(always)]
-    fn distances_squared(&self, p: Vec3) -> [f32; WIDTH] {
-        let p = p.to_array();
-        let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let along = |axis: usize, c: usize| {
-            larger(larger(self.lo[axis][c] - p[axis], p[axis] - self.hi[axis][c]), 0.0)
-        };
-        std::array::from_fn(|c| {
-            let (x, y, z) = (along(0, c), along(1, c), along(2, c));
-            x * x + y * y + z * z
-        })
+    fn distances_squared<L: Lanes>(&self, l: L, p: [L::F; 3]) -> L::F {
+        let x = outside(l, &self.lo[0], &self.hi[0], p[0]);
+        let y = outside(l, &self.lo[1], &self.hi[1], p[1]);
+        let z = outside(l, &self.lo[2], &self.hi[2], p[2]);
+        l.add(l.add(l.mul(x, x), l.mul(y, y)), l.mul(z, z))
     }
+
+    /// Metres²: the larger face of the box around all children.
+    fn area(&self) -> f32 {
+        let extent = |axis: usize| {
+            let lo = self.lo[axis].iter().fold(f32::INFINITY, |lo, v| lo.min(*v));
+            self.hi[axis].iter().fold(f32::NEG_INFINITY, |hi, v| hi.max(*v)) - lo
+        };
+        let [x, y, z] = [extent(0), extent(1), extent(2)];
+        (x * y).max(y * z).max(z * x)
+    }
+}
+
+/// How far a coordinate is outside each of eight intervals.
+#[inline(always)]
+fn outside<L: Lanes>(l: L, lo: &Array, hi: &Array, p: L::F) -> L::F {
+    l.max(l.max(l.sub(l.load(lo), p), l.sub(p, l.load(hi))), l.splat(0.0))
 }
 
 /// What is done at the leaves near a point.
 pub trait Visitor {
-    /// Whether nearer leaves should come first, because [`Visitor::bound`] will fall.
-    const NEAREST_FIRST: bool;
-    /// Leaves farther than this are not visited, metres²; finite.
+    /// Leaves farther than this are not visited, metres²; finite. May fall from leaf to leaf.
     fn bound(&self) -> f32;
-    fn leaf(&mut self, leaf: usize);
+    fn leaf<L: Lanes>(&mut self, lanes: L, leaf: usize);
 }
 
 /// Boxes of all leaves.
@@ -75,18 +85,14 @@ pub struct Boxes {
     nodes: Vec<Node>,
     /// Where each level begins in `nodes`, the root first.
     levels: Vec<u32>,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Pending {
-    distance_squared: f32,
-    level: u32,
-    node: u32,
+    /// Metres² for each leaf of a node, for the nodes of the last level.
+    areas: Vec<f32>,
 }
 
 impl Boxes {
     pub fn new(leaves: Vec<Bounds>) -> Boxes {
         let mut levels: Vec<Vec<Node>> = Vec::new();
+        let count = leaves.len();
         let mut bounds = leaves;
         while levels.last().map_or(!bounds.is_empty(), |level| level.len() > 1) {
             levels.push(bounds.chunks(WIDTH).map(Node::new).collect());
@@ -95,6 +101,11 @@ impl Boxes {
             bounds = bounds.chunks(WIDTH).map(joined).collect();
         }
         let mut boxes = Boxes::default();
+        if let Some(last) = levels.first() {
+            let children = |node: usize| (count - node * WIDTH).min(WIDTH);
+            let areas = last.iter().enumerate().map(|(i, node)| node.area() / children(i) as f32);
+            boxes.areas = areas.collect();
+        }
         boxes.nodes.reserve_exact(levels.iter().map(Vec::len).sum());
         for level in levels.into_iter().rev() {
             boxes.levels.push(boxes.nodes.len() as u32);
@@ -104,63 +115,90 @@ impl Boxes {
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.levels.capacity() * size_of::<u32>()
+        self.nodes.capacity() * size_of::<Node>() + (self.levels.capacity() + self.areas.capacity()) * size_of::<u32>()
     }
 
-    /// Visits the leaves whose boxes are no farther from `p` than the visitor's bound.
+    /// Which of a node's eight boxes are within the bound.
+    #[inline(always)]
+    fn near<L: Lanes>(&self, l: L, node: u32, p: [L::F; 3], bound: f32) -> u32 {
+        l.le(self.nodes[node as usize].distances_squared(l, p), l.splat(bound))
+    }
+
+    /// Visits the leaves whose boxes are no farther from `p` than the visitor's bound, in their order.
     #[inline(always)]
     pub fn visit<V: Visitor>(&self, p: Vec3, visitor: &mut V) {
-        if self.nodes.is_empty() {
-            return;
+        if !self.nodes.is_empty() {
+            lanes::run(Visit { boxes: self, p, visitor });
         }
-        let last = self.levels.len() as u32 - 1;
-        let mut stack = [Pending::default(); (WIDTH - 1) * DEEPEST + 1];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let Pending { distance_squared, level, node } = stack[height];
-            if V::NEAREST_FIRST && distance_squared > visitor.bound() {
+    }
+
+    /// Metres²: the area around `p` that holds about as many photons as fill one leaf.
+    pub fn area_of_a_leaf(&self, p: Vec3) -> f32 {
+        let mut area = 0.0;
+        if !self.nodes.is_empty() {
+            lanes::run(Descend { boxes: self, p, area: &mut area });
+        }
+        area
+    }
+}
+
+struct Visit<'a, V> {
+    boxes: &'a Boxes,
+    p: Vec3,
+    visitor: &'a mut V,
+}
+
+impl<V: Visitor> Work for Visit<'_, V> {
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let Visit { boxes, p, visitor } = self;
+        let p = [l.splat(p.x), l.splat(p.y), l.splat(p.z)];
+        let levels = &boxes.levels[..];
+        // Nodes that wait, by level: each level has at most eight, in the bits of a mask.
+        let mut stack = [(0u32, 0u32); DEEPEST];
+        let mut level = 0;
+        stack[0] = (0, boxes.near(l, 0, p, visitor.bound()));
+        loop {
+            let (node, mask) = stack[level];
+            if mask == 0 {
+                if level == 0 {
+                    return;
+                }
+                level -= 1;
                 continue;
             }
-            let place = self.levels[level as usize] + node;
-            let distances = self.nodes[place as usize].distances_squared(p);
-            let (near, count) = near_children::<V>(&distances, visitor.bound());
-            if level == last {
-                for &c in &near[..count] {
-                    if !V::NEAREST_FIRST || distances[c as usize] <= visitor.bound() {
-                        visitor.leaf(node as usize * WIDTH + c as usize);
-                    }
-                }
+            let child = node * WIDTH as u32 + mask.trailing_zeros();
+            stack[level].1 = mask & (mask - 1);
+            if level + 1 == levels.len() {
+                visitor.leaf(l, child as usize);
             } else {
-                for &c in near[..count].iter().rev() {
-                    let c = u32::from(c);
-                    let distance_squared = distances[c as usize];
-                    stack[height] =
-                        Pending { distance_squared, level: level + 1, node: node * WIDTH as u32 + c };
-                    height += 1;
-                }
+                level += 1;
+                stack[level] = (child, boxes.near(l, levels[level] + child, p, visitor.bound()));
             }
         }
     }
 }
 
-/// Children within the bound, nearest first where the visitor wants that; and how many.
-#[inline(always)]
-fn near_children<V: Visitor>(distances: &[f32; WIDTH], bound: f32) -> ([u8; WIDTH], usize) {
-    let mut near = [0u8; WIDTH];
-    let mut count = 0;
-    for c in 0..WIDTH {
-        if distances[c] <= bound {
-            let mut at = count;
-            if V::NEAREST_FIRST {
-                while at > 0 && distances[near[at - 1] as usize] > distances[c] {
-                    near[at] = near[at - 1];
-                    at -= 1;
-                }
+/// Goes down to the nearest box of each node.
+struct Descend<'a> {
+    boxes: &'a Boxes,
+    p: Vec3,
+    area: &'a mut f32,
+}
+
+impl Work for Descend<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let p = [l.splat(self.p.x), l.splat(self.p.y), l.splat(self.p.z)];
+        let mut node = 0;
+        for (level, first) in self.boxes.levels.iter().enumerate() {
+            if level + 1 == self.boxes.levels.len() {
+                *self.area = self.boxes.areas[node];
+                return;
             }
-            near[at] = c as u8;
-            count += 1;
+            let distances = l.store(self.boxes.nodes[*first as usize + node].distances_squared(l, p));
+            let nearest = (1..WIDTH).fold(0, |best, c| if distances[c] < distances[best] { c } else { best });
+            node = node * WIDTH + nearest;
         }
     }
-    (near, count)
 }

@@ -70,7 +70,7 @@ impl PhotonMap {
         brdf: &impl Fn(Vec3) -> Vec3,
     ) -> Gathered {
         let mut sum = Sum::new(kernel, radius);
-        self.each(query.p, query.n, radius, |place, distance_squared| {
+        self.each(query.p, query.n, radius, #[inline(always)] |place, distance_squared| {
             sum.add(&self.hit(query.p, place, distance_squared), brdf);
         });
         sum.gathered(query.n)

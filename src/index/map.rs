@@ -1,6 +1,7 @@
 //! The photon map and its construction.
 
 use super::boxes::{Bounds, Boxes};
+use super::lanes::Array;
 use super::photon::{NO_DIRECTION, Packed};
 use crate::math::Vec3;
 use crate::scatter::Photon;
@@ -10,7 +11,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Photons of one leaf.
-pub const LEAF: usize = 16;
+pub const LEAF: usize = 8 * HALVES;
+pub const HALVES: usize = 2;
 /// Fewer photons than this are divided by one thread; how many never changes the tree.
 const WORTH_A_THREAD: usize = 1 << 14;
 
@@ -22,18 +24,21 @@ type Tree = KdTree<f32, u32, Eytzinger, Leaves, 3, LEAF>;
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Positions {
-    pub x: [f32; LEAF],
-    pub y: [f32; LEAF],
-    pub z: [f32; LEAF],
+    pub x: [Array; HALVES],
+    pub y: [Array; HALVES],
+    pub z: [Array; HALVES],
 }
 
 impl Positions {
-    const NONE: Positions = Positions { x: [f32::NAN; LEAF], y: [f32::NAN; LEAF], z: [f32::NAN; LEAF] };
+    const NONE: Positions =
+        Positions { x: [[f32::NAN; 8]; HALVES], y: [[f32::NAN; 8]; HALVES], z: [[f32::NAN; 8]; HALVES] };
 
     fn of(indices: &[u32], photons: &[Photon]) -> Positions {
         let mut all = Positions::NONE;
         for (place, &index) in indices.iter().enumerate() {
-            [all.x[place], all.y[place], all.z[place]] = photons[index as usize].position.to_array();
+            let (half, lane) = (place / 8, place % 8);
+            [all.x[half][lane], all.y[half][lane], all.z[half][lane]] =
+                photons[index as usize].position.to_array();
         }
         all
     }
@@ -44,7 +49,8 @@ impl Positions {
 
     #[inline(always)]
     pub fn at(&self, place: usize) -> Vec3 {
-        Vec3::new(self.x[place], self.y[place], self.z[place])
+        let (half, lane) = (place / 8, place % 8);
+        Vec3::new(self.x[half][lane], self.y[half][lane], self.z[half][lane])
     }
 }
 

@@ -9,6 +9,7 @@
 //!
 //! - `photon.rs`: sixteen bytes that hold all of a photon but its position.
 //! - `boxes.rs`: boxes over leaves, visited near a point.
+//! - `lanes.rs`: eight at a time.
 //! - `map.rs`: [`PhotonMap`], its construction.
 //! - `search.rs`: which photons count at a point, within a radius or the k nearest.
 //! - `kernel.rs`, `gather.rs`: the density estimate.
@@ -18,6 +19,7 @@ mod bandwidth;
 mod boxes;
 mod gather;
 mod kernel;
+mod lanes;
 mod map;
 mod photon;
 mod search;

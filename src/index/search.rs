@@ -13,12 +13,14 @@
 //! evenly lose nothing. The other side of a wall, however thin, has n·n' = −1.
 
 use super::boxes::Visitor;
-use super::map::{LEAF, PhotonMap, Positions};
+use super::lanes::{Array, Lanes};
+use super::map::{HALVES, LEAF, PhotonMap, Positions};
 use super::photon::{NO_DIRECTION, unpack_direction};
 use crate::math::Vec3;
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;
+const GENEROUS: f32 = 0.8;
 
 /// A photon that counts.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +40,7 @@ impl PhotonMap {
     /// geometric normal on the side that is seen.
     #[inline]
     pub fn within(&self, p: Vec3, n: Vec3, radius: f32, mut visit: impl FnMut(Hit)) {
-        self.each(p, n, radius, |place, distance_squared| visit(self.hit(p, place, distance_squared)));
+        self.each(p, n, radius, #[inline(always)] |place, distance_squared| visit(self.hit(p, place, distance_squared)));
     }
 
     /// The distance to the k-th of the photons that count at `p`, metres; none where fewer than `k`
@@ -96,14 +98,25 @@ impl PhotonMap {
         room: &mut [Candidate],
         then: impl FnOnce(&[Candidate]) -> T,
     ) -> T {
-        let bound = square(max);
-        let mut nearest = Nearest { map: self, surface: Surface::new(p, n), bound, k, room, count: 0 };
-        self.boxes.visit(p, &mut nearest);
-        if nearest.count >= k {
-            nearest.keep_k();
+        let farthest = square(max);
+        // A first look within what should hold k saves looking at far ones; four times the area if not.
+        let photons = k as f32 + 2.0 * (k as f32).sqrt();
+        let mut bound = GENEROUS * photons * self.boxes.area_of_a_leaf(p) / LEAF as f32 / std::f32::consts::PI;
+        loop {
+            let last = !(bound > 0.0 && bound < farthest);
+            bound = if last { farthest } else { bound };
+            let mut nearest =
+                Nearest { map: self, surface: Surface::new(p, n), bound, k, room: &mut *room, count: 0 };
+            self.boxes.visit(p, &mut nearest);
+            if nearest.count >= k {
+                nearest.keep_k();
+            }
+            let count = nearest.count;
+            if last || count >= k {
+                return then(&room[..count]);
+            }
+            bound *= 4.0;
         }
-        let count = nearest.count;
-        then(&room[..count])
     }
 }
 
@@ -160,52 +173,56 @@ impl Surface {
 
     /// Calls `visit` with the place and e² of each photon of a leaf that counts, e² ≤ `bound`.
     #[inline(always)]
-    fn scan(&mut self, map: &PhotonMap, leaf: usize, bound: f32, mut visit: impl FnMut(usize, f32)) {
+    fn scan<L: Lanes>(
+        &mut self,
+        l: L,
+        map: &PhotonMap,
+        leaf: usize,
+        bound: f32,
+        mut visit: impl FnMut(usize, f32),
+    ) {
         let code = map.normals[leaf];
         let positions = &map.positions[leaf];
-        if code != NO_DIRECTION {
-            let Some(middle) = self.middle(code) else { return };
-            let distances = distances_squared(positions, self.p, Some(middle));
-            each_within(&distances, bound, |i| visit(leaf * LEAF + i, distances[i]));
-            return;
-        }
-        let distances = distances_squared(positions, self.p, None);
-        each_within(&distances, bound, |i| {
-            let place = leaf * LEAF + i;
-            if let Some(middle) = self.middle(map.packed[place].normal) {
-                let h = (positions.at(i) - self.p).dot(middle);
-                let distance_squared = distances[i] + PRESS * (h * h);
-                if distance_squared <= bound {
-                    visit(place, distance_squared);
+        let common = code != NO_DIRECTION;
+        let middle = if common { self.middle(code) } else { Some(Vec3::ZERO) };
+        let Some(middle) = middle else { return };
+        for half in 0..HALVES {
+            let (mut within, distances) = positions.within(l, half, self.p, middle, bound);
+            while within != 0 {
+                let i = within.trailing_zeros() as usize;
+                within &= within - 1;
+                let place = half * 8 + i;
+                if common {
+                    visit(leaf * LEAF + place, distances[i]);
+                } else if let Some(middle) = self.middle(map.packed[leaf * LEAF + place].normal) {
+                    let h = (positions.at(place) - self.p).dot(middle);
+                    let distance_squared = distances[i] + PRESS * (h * h);
+                    if distance_squared <= bound {
+                        visit(leaf * LEAF + place, distance_squared);
+                    }
                 }
             }
-        });
-    }
-}
-
-/// e² of a leaf's photons, all of whose normals give `middle`; d² without it.
-#[inline(always)]
-fn distances_squared(at: &Positions, p: Vec3, middle: Option<Vec3>) -> [f32; LEAF] {
-    std::array::from_fn(|i| {
-        let (x, y, z) = (at.x[i] - p.x, at.y[i] - p.y, at.z[i] - p.z);
-        let d2 = x * x + y * y + z * z;
-        match middle {
-            Some(m) => {
-                let h = x * m.x + y * m.y + z * m.z;
-                d2 + PRESS * (h * h)
-            }
-            None => d2,
         }
-    })
+    }
+}
+
+impl Positions {
+    /// Which of eight photons have e² ≤ `bound`, if all their normals give `middle`, and their e².
+    #[inline(always)]
+    fn within<L: Lanes>(&self, l: L, half: usize, p: Vec3, middle: Vec3, bound: f32) -> (u32, Array) {
+        let x = l.sub(l.load(&self.x[half]), l.splat(p.x));
+        let y = l.sub(l.load(&self.y[half]), l.splat(p.y));
+        let z = l.sub(l.load(&self.z[half]), l.splat(p.z));
+        let d2 = dot(l, [x, y, z], [x, y, z]);
+        let h = dot(l, [x, y, z], [l.splat(middle.x), l.splat(middle.y), l.splat(middle.z)]);
+        let e2 = l.add(d2, l.mul(l.splat(PRESS), l.mul(h, h)));
+        (l.le(e2, l.splat(bound)), l.store(e2))
+    }
 }
 
 #[inline(always)]
-fn each_within(distances: &[f32; LEAF], bound: f32, mut visit: impl FnMut(usize)) {
-    let mut mask = (0..LEAF).fold(0u32, |mask, i| mask | u32::from(distances[i] <= bound) << i);
-    while mask != 0 {
-        visit(mask.trailing_zeros() as usize);
-        mask &= mask - 1;
-    }
+fn dot<L: Lanes>(l: L, a: [L::F; 3], b: [L::F; 3]) -> L::F {
+    l.add(l.add(l.mul(a[0], b[0]), l.mul(a[1], b[1])), l.mul(a[2], b[2]))
 }
 
 struct Within<'a, F> {
@@ -216,16 +233,22 @@ struct Within<'a, F> {
 }
 
 impl<F: FnMut(usize, f32)> Visitor for Within<'_, F> {
-    const NEAREST_FIRST: bool = false;
-
     #[inline(always)]
     fn bound(&self) -> f32 {
         self.bound
     }
 
     #[inline(always)]
-    fn leaf(&mut self, leaf: usize) {
-        self.surface.scan(self.map, leaf, self.bound, &mut self.visit);
+    fn leaf<L: Lanes>(&mut self, l: L, leaf: usize) {
+        let Within { map, surface, bound, visit } = self;
+        surface.scan(
+            l,
+            map,
+            leaf,
+            *bound,
+            #[inline(always)]
+            |place, distance_squared| visit(place, distance_squared),
+        );
     }
 }
 
@@ -249,22 +272,27 @@ impl Nearest<'_> {
 }
 
 impl Visitor for Nearest<'_> {
-    const NEAREST_FIRST: bool = true;
-
     #[inline(always)]
     fn bound(&self) -> f32 {
         self.bound
     }
 
     #[inline(always)]
-    fn leaf(&mut self, leaf: usize) {
+    fn leaf<L: Lanes>(&mut self, l: L, leaf: usize) {
         if self.count + LEAF > self.room.len() && self.count >= self.k {
             self.keep_k();
         }
         let Nearest { map, surface, bound, room, count, .. } = self;
-        surface.scan(map, leaf, *bound, |place, distance_squared| {
-            room[*count] = Candidate::new(place, distance_squared);
-            *count += 1;
-        });
+        surface.scan(
+            l,
+            map,
+            leaf,
+            *bound,
+            #[inline(always)]
+            |place, distance_squared| {
+                room[*count] = Candidate::new(place, distance_squared);
+                *count += 1;
+            },
+        );
     }
 }
