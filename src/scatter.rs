@@ -4,16 +4,19 @@
 //! mirror or interface at least (L S⁺ D), and nowhere else. No plan of this version calls for
 //! caustics, so no photon is scattered; `Plan` says so for every scene.
 
-use crate::math::{DVec3, Vec3};
+use crate::math::Vec3;
 use crate::plan::{Effect, Plan};
 
 /// Light that has arrived at a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Photon {
-    pub position: DVec3,
+    /// Metres, in the coordinates of the `World`.
+    pub position: Vec3,
     /// Unit direction from which it came, away from the surface.
     pub wi: Vec3,
-    /// Watts a channel.
+    /// Unit geometric normal on the side on which it arrived: `wi · normal` > 0.
+    pub normal: Vec3,
+    /// Watts a channel, 0 or more.
     pub power: Vec3,
 }
 
