@@ -5,6 +5,7 @@
 mod assemble;
 pub mod bvh;
 mod camera;
+mod clearance;
 mod contact;
 mod crossing;
 mod footprint;

@@ -14,9 +14,11 @@
 //! - `search.rs`: which photons count at a point, within a radius or the k nearest.
 //! - `kernel.rs`, `gather.rs`: the density estimate.
 //! - `bandwidth.rs`: the first radius of progressive passes, and how it shrinks.
+//! - `caustics.rs`: a pass's map with the rule of its radius, as tracing asks for it.
 
 mod bandwidth;
 mod boxes;
+mod caustics;
 mod gather;
 mod kernel;
 mod lanes;
@@ -27,6 +29,7 @@ mod search;
 mod tests;
 
 pub use bandwidth::{Bandwidth, shrink};
+pub use caustics::{Caustics, Reach};
 pub use gather::{Gathered, Query, Radius};
 pub use kernel::Kernel;
 pub use map::PhotonMap;

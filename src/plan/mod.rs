@@ -4,10 +4,12 @@
 //! allocate or load.
 
 mod effects;
+mod photons;
 
 pub use crate::description::Antialiasing;
-use crate::description::{Light, Scene};
+use crate::description::{Indirect, Light, Scene};
 pub use effects::{Decision, Effect};
+pub use photons::{Kernel, PhotonBudget, PhotonEngine};
 
 /// What a render will do.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,10 @@ pub struct Plan {
     /// Branches of at least this weight are always followed; lighter ones survive by chance, in
     /// proportion, with their weight raised to it.
     pub split_weight: f64,
+    /// Caustics, where the scene calls for them.
+    pub photons: Option<PhotonBudget>,
+    /// Bounces between diffuse surfaces at most; 0 without indirect light.
+    pub bounces: u32,
     pub decisions: Vec<Decision>,
 }
 
@@ -34,6 +40,8 @@ impl Plan {
     /// `passes` and `seed` override the scene's.
     pub fn new(scene: &Scene, passes: Option<u32>, seed: Option<u64>) -> Plan {
         let progressive = scene.antialiasing == Antialiasing::Progressive;
+        let decisions = effects::decide(scene);
+        let caustics = decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
         Plan {
             antialiasing: scene.antialiasing,
             passes: passes
@@ -44,7 +52,13 @@ impl Plan {
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.
             split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
-            decisions: effects::decide(scene),
+            photons: photons::budget(scene).filter(|_| caustics),
+            bounces: match scene.indirect {
+                Indirect::Off => 0,
+                Indirect::On => u32::MAX,
+                Indirect::Bounces(n) => n,
+            },
+            decisions,
         }
     }
 

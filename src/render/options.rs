@@ -38,12 +38,16 @@ pub enum Aov {
     Direct,
     Reflection,
     Refraction,
+    Caustic,
+    Indirect,
+    Photons,
+    PhotonDensity,
     Variance,
     Edges,
 }
 
 impl Aov {
-    pub const ALL: [Aov; 11] = [
+    pub const ALL: [Aov; 15] = [
         Aov::Albedo,
         Aov::Normal,
         Aov::Depth,
@@ -53,6 +57,10 @@ impl Aov {
         Aov::Direct,
         Aov::Reflection,
         Aov::Refraction,
+        Aov::Caustic,
+        Aov::Indirect,
+        Aov::Photons,
+        Aov::PhotonDensity,
         Aov::Variance,
         Aov::Edges,
     ];
@@ -69,6 +77,10 @@ impl Aov {
             Aov::Direct => "direct",
             Aov::Reflection => "reflection",
             Aov::Refraction => "refraction",
+            Aov::Caustic => "caustic",
+            Aov::Indirect => "indirect",
+            Aov::Photons => "photons",
+            Aov::PhotonDensity => "photon_density",
             Aov::Variance => "variance",
             Aov::Edges => "edges",
         }
@@ -96,8 +108,9 @@ impl Options {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
-            split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction]),
+            split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
             variance: any(&[Aov::Variance]),
+            photons: any(&[Aov::Photons, Aov::PhotonDensity]),
         }
     }
 

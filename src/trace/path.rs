@@ -10,6 +10,7 @@
 //! more than about 1 / split_weight branches. (n₁/n₂)² is the compression of solid angle across an
 //! interface (Veach 1997, 5.2).
 
+use super::bounce;
 use super::sample::FirstHit;
 use super::{Sample, Tally, Tracer};
 use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
@@ -18,7 +19,7 @@ use crate::math::{DVec2, Ray, Vec3};
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Class {
+pub(super) enum Class {
     Direct,
     Reflection,
     Refraction,
@@ -32,14 +33,17 @@ impl Class {
 
 /// A part of a path that is still to be followed.
 #[derive(Clone, Copy, Debug)]
-struct Branch {
-    ray: Ray,
-    throughput: Vec3,
-    media: MediaSet,
-    cone: Cone,
-    depth: u32,
-    sequence: Sequence,
-    class: Class,
+pub(super) struct Branch {
+    pub ray: Ray,
+    pub throughput: Vec3,
+    pub media: MediaSet,
+    pub cone: Cone,
+    /// Specular events in a row.
+    pub depth: u32,
+    /// Diffuse surfaces behind it.
+    pub bounces: u32,
+    pub sequence: Sequence,
+    pub class: Class,
 }
 
 /// Dimensions of a path vertex's random values.
@@ -48,6 +52,9 @@ const ROULETTE: u64 = 2;
 const MIRROR: u64 = 3;
 const REFLECTED: u64 = 4;
 const REFRACTED: u64 = 5;
+
+pub(super) const BOUNCE: u64 = 7;
+pub(super) const COVERAGE: u64 = 8;
 
 /// Dimensions of a camera sample.
 const LENS: u64 = 6;
@@ -90,6 +97,7 @@ impl Tracer<'_> {
             media: scratch.start,
             cone: Cone { width: 0.0, spread: camera.pixel_spread() },
             depth: 0,
+            bounces: 0,
             sequence,
             class: Class::Direct,
         };
@@ -104,7 +112,7 @@ impl Tracer<'_> {
 
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
-            return deposit(sample, branch.class, branch.throughput * self.leaving(branch));
+            return self.deposit(sample, branch, self.leaving(branch));
         };
         let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
         branch.throughput *= self.world.transmittance(&branch.media, surface.t);
@@ -133,8 +141,10 @@ impl Tracer<'_> {
             }
             _ => {}
         }
-        let radiance = shading.emitted() + self.shaded(branch, &surface, &shading, tally);
-        deposit(sample, branch.class, branch.throughput * radiance);
+        // After a bounce, lights have been counted where the path left.
+        let emitted = if branch.bounces == 0 { shading.emitted() } else { Vec3::ZERO };
+        let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
+        self.deposit(sample, branch, radiance);
         if shading.km != Vec3::ZERO {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
@@ -147,6 +157,9 @@ impl Tracer<'_> {
     /// What a ray meets that leaves the scene.
     fn leaving(&self, branch: &Branch) -> Vec3 {
         let world = self.world;
+        if branch.bounces > 0 {
+            return Vec3::ZERO;
+        }
         let (_, absorption) = world.medium(&branch.media);
         if absorption != Vec3::ZERO {
             return Vec3::ZERO;
@@ -206,7 +219,9 @@ impl Tracer<'_> {
         tally: &mut Tally,
     ) {
         branch.throughput *= weight;
-        branch.depth += 1;
+        if event != BOUNCE {
+            branch.depth += 1;
+        }
         branch.sequence = branch.sequence.dimension(event);
         branch.class = branch.class.then(class);
         let heaviest = branch.throughput.max_element();
@@ -218,7 +233,11 @@ impl Tracer<'_> {
             tally.cut.weight += f64::from(heaviest);
             return;
         }
-        let survival = f64::from(heaviest) / self.plan.split_weight;
+        let survival = if event == BOUNCE {
+            bounce::survival(f64::from(heaviest), branch.bounces)
+        } else {
+            f64::from(heaviest) / self.plan.split_weight
+        };
         if survival < 1.0 {
             if branch.sequence.dimension(ROULETTE).value() >= survival {
                 return;
@@ -228,12 +247,39 @@ impl Tracer<'_> {
         todo.push(branch);
     }
 
-    fn shaded(&self, branch: &Branch, surface: &Surface, shading: &Shading, tally: &mut Tally) -> Vec3 {
+    /// What the layers that are not specular send on; the path's further way is pushed.
+    fn shaded(
+        &self,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        sample: &mut Sample,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) -> Vec3 {
         let base = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt) * shading.kd;
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        base * self.world.ambient + self.direct(base, surface, shading, &branch.media, branch.sequence, tally)
+        let mut radiance = base * self.world.ambient
+            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
+        if let Some(caustics) = &self.caustics {
+            let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
+            radiance += caustic.radiance;
+            if branch.bounces == 0 {
+                sample.caustic += branch.throughput * caustic.radiance;
+                sample.photon_density += branch.throughput.max_element() * caustic.density;
+                if self.wants.photons {
+                    sample.photons += branch.throughput * self.photon_dots(caustics, branch, surface, shading);
+                }
+            }
+        }
+        if branch.bounces < self.plan.bounces
+            && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
+        {
+            self.push(next, weight, BOUNCE, branch.class, todo, tally);
+        }
+        radiance
     }
 
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {
@@ -247,13 +293,17 @@ impl Tracer<'_> {
             object: world.instances[surface.instance as usize].object + 1,
         }
     }
-}
 
-fn deposit(sample: &mut Sample, class: Class, radiance: Vec3) {
-    sample.radiance += radiance;
-    match class {
-        Class::Direct => sample.direct += radiance,
-        Class::Reflection => sample.reflection += radiance,
-        Class::Refraction => sample.refraction += radiance,
+    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3) {
+        let radiance = branch.throughput * radiance;
+        sample.radiance += radiance;
+        match branch.class {
+            Class::Direct => sample.direct += radiance,
+            Class::Reflection => sample.reflection += radiance,
+            Class::Refraction => sample.refraction += radiance,
+        }
+        if branch.bounces > 0 {
+            sample.indirect += radiance;
+        }
     }
 }

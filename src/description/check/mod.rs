@@ -6,6 +6,7 @@ mod files;
 mod lights;
 mod materials;
 mod objects;
+mod photons;
 mod references;
 mod settings;
 mod usage;
@@ -44,6 +45,7 @@ pub(super) fn check(
             .collect(),
     };
     settings::check(&mut checker);
+    photons::check(&mut checker);
     materials::textures(&mut checker);
     materials::check(&mut checker);
     lights::check(&mut checker);

@@ -90,6 +90,10 @@ impl Surface for Sphere {
         true
     }
 
+    fn clearance(&self, _: DVec3) -> f64 {
+        f64::INFINITY
+    }
+
     fn area(&self) -> f64 {
         4.0 * PI * self.radius * self.radius
     }
