@@ -19,6 +19,14 @@ impl Sphere {
         Sphere { radius, center, p_error }
     }
 
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
     /// Where on its way a ray from outside is nearest to the centre; `None` if that is behind it.
     pub fn nearest_to_center(&self, ray: &Ray) -> Option<f64> {
         let to_center = self.center - ray.origin;
