@@ -93,7 +93,7 @@ fn options(args: &RenderArgs) -> Options {
     }
     Options {
         threads: args.threads.map(usize::from),
-        passes: args.passes,
+        passes: args.passes.clone(),
         seed: args.seed,
         aovs,
         tile: args.tile,
@@ -104,7 +104,8 @@ fn options(args: &RenderArgs) -> Options {
 /// The first line: what is rendered, how large, until when, with how many threads.
 fn announcement(args: &RenderArgs, scene: &Scene) -> String {
     let default = if scene.antialiasing == Antialiasing::Progressive { 64 } else { 1 };
-    let passes = args.passes.or(scene.render.passes).unwrap_or(default);
+    let given = args.passes.as_ref().map(|range| range.end - range.start);
+    let passes = given.or(scene.render.passes).unwrap_or(default);
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
     format!(

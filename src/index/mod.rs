@@ -34,10 +34,3 @@ pub use gather::{Gathered, Query, Radius};
 pub use kernel::Kernel;
 pub use map::PhotonMap;
 pub use search::Hit;
-
-use crate::scatter::Photon;
-
-/// The map of a pass's photons; none where none were scattered.
-pub fn map(photons: Option<Vec<Photon>>) -> Option<PhotonMap> {
-    photons.map(PhotonMap::new)
-}

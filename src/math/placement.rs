@@ -112,6 +112,11 @@ impl Placement {
         self.det
     }
 
+    /// By how much the map stretches area across the object's unit normal `n`: |det M|·‖M⁻ᵀn‖.
+    pub fn area_factor(&self, n: DVec3) -> f64 {
+        self.det.abs() * (self.object_from_world.matrix3.transpose() * n).length()
+    }
+
     /// The factor by which a length grows on the way to the world, over all directions.
     pub fn scale(&self) -> f64 {
         self.scale

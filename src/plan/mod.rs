@@ -8,6 +8,7 @@ mod photons;
 
 pub use crate::description::Antialiasing;
 use crate::description::{Indirect, Light, Scene};
+use std::ops::Range;
 pub use effects::{Decision, Effect};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
 
@@ -17,6 +18,8 @@ pub struct Plan {
     pub antialiasing: Antialiasing,
     /// Independent passes whose mean is the image.
     pub passes: u32,
+    /// The number of the first of them.
+    pub first_pass: u32,
     pub seed: u64,
     /// Specular events in a row after which a path is cut.
     pub max_depth: u32,
@@ -37,17 +40,20 @@ const DEFAULT_PASSES: u32 = 64;
 const SINGLE_PASS_LIGHT_SAMPLES: u32 = 16;
 
 impl Plan {
-    /// `passes` and `seed` override the scene's.
-    pub fn new(scene: &Scene, passes: Option<u32>, seed: Option<u64>) -> Plan {
+    /// `passes` (the numbers from the first to the one after the last) and `seed` override the scene's.
+    pub fn new(scene: &Scene, passes: Option<Range<u32>>, seed: Option<u64>) -> Plan {
         let progressive = scene.antialiasing == Antialiasing::Progressive;
         let decisions = effects::decide(scene);
         let caustics = decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
         Plan {
             antialiasing: scene.antialiasing,
             passes: passes
+                .as_ref()
+                .map(|range| range.end.saturating_sub(range.start))
                 .or(scene.render.passes)
                 .unwrap_or(if progressive { DEFAULT_PASSES } else { 1 })
                 .max(1),
+            first_pass: passes.map_or(0, |range| range.start),
             seed: seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.

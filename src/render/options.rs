@@ -3,6 +3,7 @@
 use crate::build::BuildError;
 use crate::plan::{Antialiasing, Plan};
 use crate::trace::Wants;
+use std::ops::Range;
 use std::str::FromStr;
 
 /// Options of one render. They override what the scene says.
@@ -10,7 +11,9 @@ use std::str::FromStr;
 pub struct Options {
     /// Worker threads; without it one a processor. Never changes a pixel.
     pub threads: Option<usize>,
-    pub passes: Option<u32>,
+    /// The numbers of the passes, from the first to the one after the last: any part of a render's passes
+    /// can be rendered alone.
+    pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
     /// Further layers of the image.
     pub aovs: Vec<Aov>,

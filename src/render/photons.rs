@@ -35,7 +35,6 @@ pub struct PassPhotons {
     factor: f32,
     emitted: u64,
     ledger: Ledger,
-    by_light: Vec<Ledger>,
 }
 
 impl PhotonStage {
@@ -70,13 +69,13 @@ impl PhotonStage {
     /// The photons of a pass; where one map serves all, those of the first.
     pub fn pass(&self, world: &World, pass: u32) -> PassPhotons {
         let pass = if self.one_map() { 0 } else { pass };
-        let Scattered { photons, ledger, emitted, by_light, .. } =
+        let Scattered { photons, ledger, emitted, .. } =
             self.emission.scatter(world, pass, self.budget.count.into());
         let factor = match self.reach {
             Rule::Shrinking { alpha, .. } => shrink(pass, alpha) as f32,
             Rule::Nearest { .. } => 1.0,
         };
-        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger, by_light }
+        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger }
     }
 
     pub fn caustics<'a>(&'a self, photons: &'a PassPhotons) -> Caustics<'a> {
@@ -148,21 +147,21 @@ impl PhotonStats {
         self.maps += 1;
         self.emitted += photons.emitted;
         self.stored += photons.map.len() as u64;
-        self.refused += photons.map.refused();
+        self.refused += photons.map.refused() as u64;
         self.radius_factor = photons.factor;
         let pilot = match &stage.reach {
             Rule::Shrinking { first, .. } => first.memory_bytes(),
             Rule::Nearest { .. } => 0,
         };
         self.map_bytes = self.map_bytes.max(photons.map.memory_bytes() + pilot);
-        let sums = photons.ledger.watts();
+        let ledger = &photons.ledger;
         let n = f64::from(self.maps);
         let mean = |before: f64, now: f64| before + (now - before) / n;
         let w = &mut self.watts;
-        w.emitted = mean(w.emitted, sums.emitted);
-        w.stored = mean(w.stored, sums.stored);
-        w.absorbed = mean(w.absorbed, sums.absorbed);
-        w.escaped = mean(w.escaped, sums.escaped);
-        w.cut_off = mean(w.cut_off, sums.cut_off);
+        w.emitted = mean(w.emitted, ledger.emitted.element_sum());
+        w.stored = mean(w.stored, ledger.stored.element_sum());
+        w.absorbed = mean(w.absorbed, ledger.absorbed.element_sum());
+        w.escaped = mean(w.escaped, ledger.escaped.element_sum());
+        w.cut_off = mean(w.cut_off, ledger.cut.element_sum());
     }
 }

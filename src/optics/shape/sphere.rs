@@ -20,6 +20,14 @@ impl Sphere {
         Sphere { radius, center, inverse_radius: 1.0 / radius, p_error }
     }
 
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
     /// Where on its way a ray from outside is nearest to the centre; `None` if that is behind it.
     pub fn nearest_to_center(&self, ray: &Ray) -> Option<f64> {
         let to_center = self.center - ray.origin;
