@@ -39,9 +39,8 @@ struct Node {
 impl Node {
     fn new(children: &[Bounds]) -> Node {
         let child = |c: usize| children.get(c).copied().unwrap_or(Bounds::EMPTY);
-        let by_axis = |of: fn(Bounds) -> Vec3| {
-            std::array::from_fn(|axis| std::array::from_fn(|c| of(child(c))[axis]))
-        };
+        let by_axis =
+            |of: fn(Bounds) -> Vec3| std::array::from_fn(|axis| std::array::from_fn(|c| of(child(c))[axis]));
         Node { lo: by_axis(|b| b.lo), hi: by_axis(|b| b.hi) }
     }
 
@@ -115,7 +114,8 @@ impl Boxes {
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + (self.levels.capacity() + self.areas.capacity()) * size_of::<u32>()
+        self.nodes.capacity() * size_of::<Node>()
+            + (self.levels.capacity() + self.areas.capacity()) * size_of::<u32>()
     }
 
     /// Which of a node's eight boxes are within the bound.

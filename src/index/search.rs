@@ -20,7 +20,7 @@ use crate::math::Vec3;
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;
-const GENEROUS: f32 = 0.8;
+const GENEROUS: f32 = 0.7;
 
 /// A photon that counts.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,13 @@ impl PhotonMap {
     /// geometric normal on the side that is seen.
     #[inline]
     pub fn within(&self, p: Vec3, n: Vec3, radius: f32, mut visit: impl FnMut(Hit)) {
-        self.each(p, n, radius, #[inline(always)] |place, distance_squared| visit(self.hit(p, place, distance_squared)));
+        self.each(
+            p,
+            n,
+            radius,
+            #[inline(always)]
+            |place, distance_squared| visit(self.hit(p, place, distance_squared)),
+        );
     }
 
     /// The distance to the k-th of the photons that count at `p`, metres; none where fewer than `k`
@@ -101,7 +107,8 @@ impl PhotonMap {
         let farthest = square(max);
         // A first look within what should hold k saves looking at far ones; four times the area if not.
         let photons = k as f32 + 2.0 * (k as f32).sqrt();
-        let mut bound = GENEROUS * photons * self.boxes.area_of_a_leaf(p) / LEAF as f32 / std::f32::consts::PI;
+        let mut bound =
+            GENEROUS * photons * self.boxes.area_of_a_leaf(p) / LEAF as f32 / std::f32::consts::PI;
         loop {
             let last = !(bound > 0.0 && bound < farthest);
             bound = if last { farthest } else { bound };
