@@ -127,7 +127,8 @@ impl Boxes {
     /// Visits the leaves whose boxes are no farther from `p` than the visitor's bound, in their order.
     #[inline(always)]
     pub fn visit<V: Visitor>(&self, p: Vec3, visitor: &mut V) {
-        if !self.nodes.is_empty() {
+        // Infinity is at no distance from the empty box, and NaN from any.
+        if !self.nodes.is_empty() && p.is_finite() {
             lanes::run(Visit { boxes: self, p, visitor });
         }
     }
@@ -135,7 +136,7 @@ impl Boxes {
     /// Metres²: the area around `p` that holds about as many photons as fill one leaf.
     pub fn area_of_a_leaf(&self, p: Vec3) -> f32 {
         let mut area = 0.0;
-        if !self.nodes.is_empty() {
+        if !self.nodes.is_empty() && p.is_finite() {
             lanes::run(Descend { boxes: self, p, area: &mut area });
         }
         area

@@ -99,7 +99,7 @@ fn k_nearest_with_many_normals_is_what_a_look_at_every_photon_finds() {
         let n = direction();
         let all = brute_force(&photons, n, n);
         for k in [1, 10, 100] {
-            // the map's normals are off by 4e-5
+            // the map's normals are off by up to 7e-5
             let (found, expected) = (map.nearest_radius(n, n, k, 2.0), all[k - 1].sqrt());
             let off = found.map_or(f32::INFINITY, |found| found / expected - 1.0);
             assert!(off.abs() < 1e-4, "k = {k}: off by {off}");
@@ -150,8 +150,10 @@ fn any_number_of_threads_builds_the_same_map() {
 
 #[test]
 fn a_photon_takes_32_bytes_at_most() {
-    for (name, photons) in arrangements(50_000) {
-        let map = PhotonMap::new(photons);
-        assert!(map.memory_bytes() <= 32 * map.len(), "{name}: {} bytes", map.memory_bytes());
+    for count in [1000, 30_000, 33_000, 50_000] {
+        for (name, photons) in arrangements(count) {
+            let bytes = PhotonMap::new(photons).memory_bytes();
+            assert!(bytes <= 32 * count, "{count} photons {name}: {bytes} bytes");
+        }
     }
 }
