@@ -88,8 +88,8 @@ impl PhotonMap {
         // Room for as many again lets the k-th be found once in k candidates.
         let room = (2 * k).max(k + LEAF);
         match room {
-            ..=128 => self.nearest_into(p, n, k, max, &mut [Candidate::default(); 128][..room], then),
-            ..=512 => self.nearest_into(p, n, k, max, &mut [Candidate::default(); 512][..room], then),
+            0..=128 => self.nearest_into(p, n, k, max, &mut [Candidate::default(); 128][..room], then),
+            129..=512 => self.nearest_into(p, n, k, max, &mut [Candidate::default(); 512][..room], then),
             _ => self.nearest_into(p, n, k, max, &mut vec![Candidate::default(); room], then),
         }
     }
@@ -239,6 +239,8 @@ struct Within<'a, F> {
     visit: F,
 }
 
+// `visit` alone would be called through a reference, which is not inlined into the lanes.
+#[allow(clippy::redundant_closure)]
 impl<F: FnMut(usize, f32)> Visitor for Within<'_, F> {
     #[inline(always)]
     fn bound(&self) -> f32 {
