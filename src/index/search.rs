@@ -20,6 +20,7 @@ use crate::math::Vec3;
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;
+/// Boxes are larger than the photons in them; of factors from 0.4 to 1.2 this is among the fastest.
 const GENEROUS: f32 = 0.7;
 
 /// A photon that counts.
@@ -105,10 +106,12 @@ impl PhotonMap {
         then: impl FnOnce(&[Candidate]) -> T,
     ) -> T {
         let farthest = square(max);
-        // A first look within what should hold k saves looking at far ones; four times the area if not.
+        // A first look within what should hold k saves looking at far ones; if it does not, further ones
+        // grow faster and faster, since there may be none to find.
         let photons = k as f32 + 2.0 * (k as f32).sqrt();
         let mut bound =
             GENEROUS * photons * self.boxes.area_of_a_leaf(p) / LEAF as f32 / std::f32::consts::PI;
+        let mut growth = 4.0f32;
         loop {
             let last = !(bound > 0.0 && bound < farthest);
             bound = if last { farthest } else { bound };
@@ -122,7 +125,8 @@ impl PhotonMap {
             if last || count >= k {
                 return then(&room[..count]);
             }
-            bound *= 4.0;
+            bound *= growth;
+            growth *= growth;
         }
     }
 }
