@@ -29,9 +29,8 @@ fn main() {
     let queries = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(1usize << 17);
     let photons = floor_photons();
     let points: Vec<[f32; 3]> = photons.iter().map(|photon| turned(photon.position)).collect();
-    let pools = [1, 2].map(|n| {
-        rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads can be started")
-    });
+    let pools = [1, 2]
+        .map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads can be started"));
     println!("                                       terrarium     kiddo   ratio");
     for (pool, threads) in pools.iter().zip(1..) {
         let (mut ours, mut plain) = (f64::INFINITY, f64::INFINITY);
@@ -68,7 +67,8 @@ fn main() {
             ("within", Radius::Fixed(expected)),
         ] {
             let gather = |p: Vec3| {
-                let gathered = map.gather(&Query { p, n: Vec3::Y, radius }, Kernel::Disc, |_| Vec3::splat(0.3));
+                let gathered =
+                    map.gather(&Query { p, n: Vec3::Y, radius }, Kernel::Disc, |_| Vec3::splat(0.3));
                 black_box(gathered.radiance);
                 gathered.photons as usize
             };
@@ -116,7 +116,9 @@ fn compare(
         for part in at.chunks(block) {
             let mut fastest = [f64::INFINITY; 2];
             for _ in 0..REPEATS {
-                for (which, f) in [&ours as &(dyn Fn(&[Vec3]) -> usize + Sync), &plain].into_iter().enumerate() {
+                for (which, f) in
+                    [&ours as &(dyn Fn(&[Vec3]) -> usize + Sync), &plain].into_iter().enumerate()
+                {
                     let (left, right) = part.split_at(part.len() / threads);
                     let start = Instant::now();
                     let n = if threads == 1 {

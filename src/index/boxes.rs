@@ -39,9 +39,8 @@ struct Node {
 impl Node {
     fn new(children: &[Bounds]) -> Node {
         let child = |c: usize| children.get(c).copied().unwrap_or(Bounds::EMPTY);
-        let by_axis = |of: fn(Bounds) -> Vec3| {
-            std::array::from_fn(|axis| std::array::from_fn(|c| of(child(c))[axis]))
-        };
+        let by_axis =
+            |of: fn(Bounds) -> Vec3| std::array::from_fn(|axis| std::array::from_fn(|c| of(child(c))[axis]));
         Node { lo: by_axis(|b| b.lo), hi: by_axis(|b| b.hi) }
     }
 
@@ -115,7 +114,8 @@ impl Boxes {
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + (self.levels.capacity() + self.areas.capacity()) * size_of::<u32>()
+        self.nodes.capacity() * size_of::<Node>()
+            + (self.levels.capacity() + self.areas.capacity()) * size_of::<u32>()
     }
 
     /// Which of a node's eight boxes are within the bound.
@@ -127,7 +127,8 @@ impl Boxes {
     /// Visits the leaves whose boxes are no farther from `p` than the visitor's bound, in their order.
     #[inline(always)]
     pub fn visit<V: Visitor>(&self, p: Vec3, visitor: &mut V) {
-        if !self.nodes.is_empty() {
+        // Infinity is at no distance from the empty box, and NaN from any.
+        if !self.nodes.is_empty() && p.is_finite() {
             lanes::run(Visit { boxes: self, p, visitor });
         }
     }
@@ -135,7 +136,7 @@ impl Boxes {
     /// Metres²: the area around `p` that holds about as many photons as fill one leaf.
     pub fn area_of_a_leaf(&self, p: Vec3) -> f32 {
         let mut area = 0.0;
-        if !self.nodes.is_empty() {
+        if !self.nodes.is_empty() && p.is_finite() {
             lanes::run(Descend { boxes: self, p, area: &mut area });
         }
         area

@@ -32,7 +32,11 @@ pub enum Radius {
     Fixed(f32),
     /// To the `k`-th nearest photon (at least 2, since one is left out), but no less than `min` and
     /// no more than `max`.
-    Nearest { k: usize, min: f32, max: f32 },
+    Nearest {
+        k: usize,
+        min: f32,
+        max: f32,
+    },
 }
 
 /// The estimate.
@@ -70,9 +74,15 @@ impl PhotonMap {
         brdf: &impl Fn(Vec3) -> Vec3,
     ) -> Gathered {
         let mut sum = Sum::new(kernel, radius);
-        self.each(query.p, query.n, radius, #[inline(always)] |place, distance_squared| {
-            sum.add(&self.hit(query.p, place, distance_squared), brdf);
-        });
+        self.each(
+            query.p,
+            query.n,
+            radius,
+            #[inline(always)]
+            |place, distance_squared| {
+                sum.add(&self.hit(query.p, place, distance_squared), brdf);
+            },
+        );
         sum.gathered(query.n)
     }
 

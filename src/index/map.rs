@@ -13,11 +13,16 @@ use std::ops::Range;
 /// Photons of one leaf.
 pub const LEAF: usize = 8 * HALVES;
 pub const HALVES: usize = 2;
+/// Most photons of a leaf of `kiddo`'s. It makes a power of two of them, so that they are half full at
+/// worst; leaves of [`LEAF`] made from such buckets are all full but the last.
+const BUCKET: usize = 512;
 /// Fewer photons than this are divided by one thread; how many never changes the tree.
 const WORTH_A_THREAD: usize = 1 << 14;
 
-type Leaves = FlatVec<f32, u32, 3, LEAF>;
-type Tree = KdTree<f32, u32, Eytzinger, Leaves, 3, LEAF>;
+/// Watts: more could not be stored, nor come from a lamp.
+const MOST_POWER: f32 = 1e38;
+
+type Tree = KdTree<f32, u32, Eytzinger, FlatVec<f32, u32, 3, BUCKET>, 3, BUCKET>;
 
 /// Positions of a leaf's photons, metres, by axis. Places without a photon hold NaN, which is within
 /// no distance of anything.
@@ -68,8 +73,8 @@ pub struct PhotonMap {
 }
 
 impl PhotonMap {
-    /// The map of these photons. Those with a value that is not finite, or with negative power, are
-    /// left out and counted. The same photons in the same order make the same map, whatever the
+    /// The map of these photons. Those with a value that is not finite, or with power outside 0 to
+    /// 1e38 W, are left out and counted. The same photons in the same order make the same map, whatever the
     /// number of threads.
     pub fn new(mut photons: Vec<Photon>) -> PhotonMap {
         let all = photons.len();
@@ -121,7 +126,9 @@ impl PhotonMap {
 
 fn is_sound(photon: &Photon) -> bool {
     let Photon { position, wi, normal, power } = photon;
-    [position, wi, normal, power].into_iter().all(|v| v.is_finite()) && power.min_element() >= 0.0
+    [position, wi, normal, power].into_iter().all(|v| v.is_finite())
+        && power.cmpge(Vec3::ZERO).all()
+        && power.max_element() <= MOST_POWER
 }
 
 fn common_normal(packed: &[Packed]) -> u32 {
@@ -146,15 +153,34 @@ fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<Range<usize>>) {
         .with_parallel_construction_threshold(WORTH_A_THREAD)
         .build_from_slice(&points)
         .expect("coordinates are finite, and photons fewer than 2^32");
-    let order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
-    let mut leaves = Vec::with_capacity(tree.leaf_count());
-    let mut start = 0;
-    for leaf in 0..tree.leaf_count() {
-        // Photons that no plane can part stay together, in leaves of any size.
-        let len = LeafStrategy::<f32, u32, Eytzinger, 3, LEAF>::leaf_len(tree.leaves(), leaf);
-        let parts = len.div_ceil(LEAF);
-        leaves.extend((0..parts).map(|i| start + len * i / parts..start + len * (i + 1) / parts));
+    let mut order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
+    let (mut leaves, mut buckets) = (Vec::new(), Vec::new());
+    let (mut start, mut rest) = (0, &mut order[..]);
+    for bucket in 0..tree.leaf_count() {
+        let len = LeafStrategy::<f32, u32, Eytzinger, 3, BUCKET>::leaf_len(tree.leaves(), bucket);
+        let (first, others) = rest.split_at_mut(len);
+        buckets.push(first);
+        rest = others;
+        leaves.extend((0..len).step_by(LEAF).map(|at| start + at..start + len.min(at + LEAF)));
         start += len;
     }
+    buckets.into_par_iter().for_each(|bucket| divide(bucket, photons));
     (order, leaves)
+}
+
+/// Orders photons so that each [`LEAF`] of them in turn lie together, by planes across the longest
+/// side of their box, which leave whole leaves on the lower side.
+fn divide(indices: &mut [u32], photons: &[Photon]) {
+    if indices.len() <= LEAF {
+        return;
+    }
+    let position = |index: u32| photons[index as usize].position;
+    let box_of_all = indices.iter().fold(Bounds::EMPTY, |bounds, &index| bounds.with(position(index)));
+    let axis = (box_of_all.hi - box_of_all.lo).max_position();
+    let lower = indices.len().div_ceil(2 * LEAF) * LEAF;
+    let key = |index: u32| position(index)[axis];
+    indices.select_nth_unstable_by(lower, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+    let (lower, upper) = indices.split_at_mut(lower);
+    divide(lower, photons);
+    divide(upper, photons);
 }

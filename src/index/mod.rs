@@ -2,10 +2,10 @@
 //! every pass.
 //!
 //! `kiddo` builds the kd-tree, on photons turned by a fixed rotation so that no axis of the scene is
-//! an axis of the tree (a floor gives a million equal coordinates). The map keeps the tree's leaves:
-//! sixteen photons each, their boxes above them in nodes of eight. A visit of those tests eight
-//! boxes or eight photons at a time, and sees each photon's surface before it counts it, which a
-//! search that knows points only cannot.
+//! an axis of the tree (a floor gives a million equal coordinates), down to buckets of some hundreds.
+//! Those are divided into leaves of sixteen, with their boxes above them in nodes of eight. A visit
+//! tests eight boxes or eight photons at a time, and sees each photon's surface before it counts it,
+//! which a search that knows points only cannot.
 //!
 //! - `photon.rs`: sixteen bytes that hold all of a photon but its position.
 //! - `boxes.rs`: boxes over leaves, visited near a point.
