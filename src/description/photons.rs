@@ -157,6 +157,15 @@ impl<'de> Deserialize<'de> for Indirect {
                 Ok(if on { Indirect::On } else { Indirect::Off })
             }
 
+            fn visit_f64<E: Error>(self, n: f64) -> Result<Indirect, E> {
+                let whole = n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&n);
+                if whole {
+                    self.visit_u64(n as u64)
+                } else {
+                    Err(E::custom(format!("{n} is no number of bounces")))
+                }
+            }
+
             fn visit_u64<E: Error>(self, n: u64) -> Result<Indirect, E> {
                 Ok(Indirect::Bounces(u32::try_from(n).unwrap_or(u32::MAX)))
             }

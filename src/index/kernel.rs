@@ -22,6 +22,26 @@ impl Kernel {
         self.shape(t_squared) * self.scale(radius)
     }
 
+    /// A distance drawn from the kernel as a density over the disc, as a share of the radius, from a uniform
+    /// value in [0, 1).
+    pub fn distance(self, u: f64) -> f64 {
+        match self {
+            Kernel::Disc => u.sqrt(),
+            Kernel::Epanechnikov => (1.0 - (1.0 - u).sqrt()).sqrt(),
+            Kernel::Cone { kappa } => {
+                // d² − 2d³/(3κ) = u·(1 − 2/(3κ)), which rises and bends up less and less: Newton from above.
+                let a = 2.0 / (3.0 * f64::from(kappa.max(1.0)));
+                let mut d = 1.0;
+                for _ in 0..8 {
+                    let slope = 2.0 * d - 3.0 * a * d * d;
+                    let step = (d * d * (1.0 - a * d) - u * (1.0 - a)) / slope.max(1e-6);
+                    d = (d - step).clamp(0.0, 1.0);
+                }
+                d
+            }
+        }
+    }
+
     /// The weight but for [`Kernel::scale`].
     #[inline(always)]
     pub(super) fn shape(self, t_squared: f32) -> f32 {

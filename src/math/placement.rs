@@ -47,8 +47,7 @@ impl Placement {
             DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let inverse = world_from_object.inverse();
         let back = inverse.matrix3;
-        let back_norm =
-            DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
+        let back_norm = DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
         Some(Placement {
             world_from_object,
             object_from_world: inverse,
@@ -56,7 +55,7 @@ impl Placement {
             det,
             scale: libm::cbrt(det.abs()),
             stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },
-            least_stretch: if m == DMat3::IDENTITY { 1.0 } else { 1.0 / back_norm },
+            least_stretch: if turns_only(m) { 1.0 - 1e-9 } else { 1.0 / back_norm },
             translation_only: m == DMat3::IDENTITY,
         })
     }
@@ -131,4 +130,9 @@ impl Placement {
     pub fn stretch(&self) -> f64 {
         self.stretch
     }
+}
+
+/// Whether a map keeps lengths, to rounding.
+fn turns_only(m: DMat3) -> bool {
+    (m.transpose() * m - DMat3::IDENTITY).to_cols_array().iter().all(|e| e.abs() < 1e-12)
 }

@@ -37,7 +37,13 @@ impl Tracer<'_> {
         tally.rays.diffuse += 1;
         let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
         let width = branch.cone.after(surface.t).width;
-        let next = Branch { ray, cone: Cone { width, spread: SPREAD }, bounces: branch.bounces + 1, depth: 0, ..*branch };
+        let next = Branch {
+            ray,
+            cone: Cone { width, spread: SPREAD },
+            bounces: branch.bounces + 1,
+            depth: 0,
+            ..*branch
+        };
         Some((next, weight))
     }
 }
@@ -49,7 +55,12 @@ pub(super) fn survival(weight: f64, bounces: u32) -> f64 {
 }
 
 /// A direction and f·cosθ over its density; `None` below the surface.
-fn scattered(base: Vec3, shading: &Shading, u: [f64; 2], choose: impl FnOnce() -> f64) -> Option<(DVec3, Vec3)> {
+fn scattered(
+    base: Vec3,
+    shading: &Shading,
+    u: [f64; 2],
+    choose: impl FnOnce() -> f64,
+) -> Option<(DVec3, Vec3)> {
     let (ng, ns) = (shading.ng, shading.ns);
     if shading.ks == Vec3::ZERO {
         let wi = Frame::around(ns).to_world(sampling::cosine_hemisphere(u));

@@ -9,7 +9,7 @@ use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
 use crate::index::{Caustics, Gathered};
 use crate::math::random::Sequence;
-use crate::math::{DVec2, DVec3, Frame, Ray, Vec3, sampling};
+use crate::math::{Frame, Ray, Vec3};
 use std::f64::consts::TAU;
 
 /// Where the photons in the sum lie no further to one side than this, no edge of the surface is near.
@@ -18,8 +18,10 @@ const EVEN: f32 = 0.2;
 /// So few photons may lie to one side by chance.
 const FEW: u32 = 12;
 
-/// Places of the disc that are looked at for the surface.
-const PROBES: u32 = 24;
+/// Counts of trials whose mean is taken, and the most trials of each: a surface that fills less of the disc
+/// than that is taken for noise.
+const COUNTS: u32 = 4;
+const MOST_TRIALS: u32 = 32;
 
 /// A caustic at a surface point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +49,8 @@ impl Tracer<'_> {
         // Below it the distances between single-precision photons are rounding.
         let least = (footprint as f32).max(p.abs().max_element() * 4.0 * f32::EPSILON).max(f32::MIN_POSITIVE);
         let bent = shading.ns != shading.ng;
-        let by_normals = |wi: Vec3| if bent { (wi.dot(ns).max(0.0) / wi.dot(ng).max(1e-3)).min(10.0) } else { 1.0 };
+        let by_normals =
+            |wi: Vec3| if bent { (wi.dot(ns).max(0.0) / wi.dot(ng).max(1e-3)).min(10.0) } else { 1.0 };
         let lambert = base * std::f32::consts::FRAC_1_PI;
         let gathered = if shading.ks == Vec3::ZERO {
             caustics.gather(p, ng, least, |wi| lambert * by_normals(wi))
@@ -64,9 +67,10 @@ impl Tracer<'_> {
         if gathered.photons == 0 {
             return Caustic::default();
         }
-        let covered = self.covered(surface, shading, &gathered, branch.sequence, tally);
+        let correction = self.edge_correction(caustics, surface, shading, &gathered, branch.sequence, tally);
         let area = std::f32::consts::PI * gathered.radius * gathered.radius;
-        Caustic { radiance: gathered.radiance / covered, density: gathered.photons as f32 / (area * covered) }
+        let density = gathered.photons as f32 / area;
+        Caustic { radiance: gathered.radiance * correction, density: density * correction }
     }
 
     /// White where a photon lies within what a pixel covers, in the photon's colour.
@@ -88,10 +92,13 @@ impl Tracer<'_> {
         dot
     }
 
-    /// The part of the gathered disc that the surface fills, which photons can lie on: less than 1 at its
-    /// edges and corners (H32). Looked for only where the photons lie to one side.
-    fn covered(
+    /// What the estimate is multiplied by where the surface ends within the disc, so that photons cannot
+    /// lie on all of it (H32): the inverse of the kernel's integral over the surface. As many places as are
+    /// drawn from the kernel until one lies on the surface are that inverse in the mean, which leaves no bias.
+    /// Looked for only where the photons are few or lie to one side.
+    fn edge_correction(
         &self,
+        caustics: &Caustics,
         surface: &Surface,
         shading: &Shading,
         gathered: &Gathered,
@@ -107,31 +114,20 @@ impl Tracer<'_> {
         }
         let frame = Frame::around(shading.ng);
         let lift = shading.ng * (0.25 * radius + surface.p_error);
-        let on_surface = |at: DVec3| {
-            let ray = Ray { origin: at + lift, dir: -shading.ng };
-            let hit = self.world.nearest(&ray, 2.0 * lift.length());
-            hit.is_some_and(|hit| {
-                let ng = self.world.surface(&ray, &hit).ng;
-                ng.dot(shading.ng).abs() > 0.5
-            })
-        };
         let sequence = sequence.dimension(COVERAGE);
-        let at = |d: DVec2| surface.p + frame.s * d.x + frame.t * d.y;
-        // Four places at the rim tell most surfaces that go on from those that end.
-        let (sin, cos) = libm::sincos(TAU * sequence.value());
-        let rim = DVec2::new(cos, sin) * radius;
-        tally.rays.probe += 4;
-        if [rim, rim.perp(), -rim, -rim.perp()].into_iter().all(|d| on_surface(at(d))) {
-            return 1.0;
+        let lies_on_surface = |count: u32, trial: u32| {
+            let [u, v] = sequence.dimension(u64::from(trial)).split(count, COUNTS).pair();
+            let (sin, cos) = libm::sincos(TAU * v);
+            let away = (frame.s * cos + frame.t * sin) * (caustics.kernel.distance(u) * radius);
+            let ray = Ray { origin: surface.p + away + lift, dir: -shading.ng };
+            let hit = self.world.nearest(&ray, 2.0 * lift.length());
+            hit.is_some_and(|hit| self.world.surface(&ray, &hit).ng.dot(shading.ng).abs() > 0.5)
+        };
+        let mut trials = 0;
+        for count in 0..COUNTS {
+            trials += (1..=MOST_TRIALS).find(|&trial| lies_on_surface(count, trial)).unwrap_or(MOST_TRIALS);
         }
-        let found = (0..PROBES)
-            .filter(|&i| {
-                let d = sampling::disk(sequence.split(i, PROBES).pair()) * radius;
-                on_surface(at(d))
-            })
-            .count();
-        tally.rays.probe += u64::from(PROBES);
-        // The point itself is on the surface.
-        (found as f32 / PROBES as f32).max(1.0 / PROBES as f32)
+        tally.rays.probe += u64::from(trials);
+        trials as f32 / COUNTS as f32
     }
 }

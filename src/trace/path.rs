@@ -270,7 +270,8 @@ impl Tracer<'_> {
                 sample.caustic += branch.throughput * caustic.radiance;
                 sample.photon_density += branch.throughput.max_element() * caustic.density;
                 if self.wants.photons {
-                    sample.photons += branch.throughput * self.photon_dots(caustics, branch, surface, shading);
+                    sample.photons +=
+                        branch.throughput * self.photon_dots(caustics, branch, surface, shading);
                 }
             }
         }
