@@ -2,9 +2,9 @@
 
 use super::BuildError;
 use super::images::{Images, Limits, TextureUse};
-use crate::description::{self, Ior, Material as Described, NAMED_IOR, Scene, Source};
+use crate::description::{self, Dispersion, Ior, Material as Described, NAMED_IOR, Scene, Source};
 use crate::math::Vec3;
-use crate::optics::{Material, MaterialId, Relief, Texture, TextureId, Weight};
+use crate::optics::{Cauchy, Material, MaterialId, Relief, Texture, TextureId, Weight};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -51,7 +51,7 @@ impl Surfaces {
             shininess: 1.0,
             reflection: Weight::ZERO,
             transmission: Weight::ZERO,
-            ior: 1.0,
+            ior: Cauchy::VACUUM,
             absorption: Vec3::ZERO,
             priority: 0,
             emission: Weight::Constant(radiance),
@@ -118,7 +118,7 @@ impl Textures<'_> {
             shininess: m.shininess.unwrap_or(50.0),
             reflection: reflection?,
             transmission: transmission?,
-            ior: ior(m.ior.as_ref())?,
+            ior: dispersed(ior(m.ior.as_ref())?, m.dispersion),
             absorption: rgb(&m.absorption),
             priority: m.priority,
             emission: emission?,
@@ -149,6 +149,14 @@ fn ior(described: Option<&Ior>) -> Result<f64, BuildError> {
             .find(|(known, _)| known == name)
             .map(|&(_, n)| n)
             .ok_or_else(|| BuildError::Invalid(format!("no index of refraction is named `{name}`"))),
+    }
+}
+
+fn dispersed(ior: f64, dispersion: Option<Dispersion>) -> Cauchy {
+    match dispersion {
+        None => Cauchy::new(ior, 0.0),
+        Some(Dispersion::Abbe(abbe)) => Cauchy::from_abbe(ior, abbe),
+        Some(Dispersion::Cauchy(b)) => Cauchy::new(ior, b),
     }
 }
 

@@ -25,7 +25,7 @@ use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
 pub use contact::{Contacts, Met};
-pub use crossing::Crossing;
+pub use crossing::{Colour, Crossing};
 pub use footprint::Cone;
 pub use media::MediaSet;
 pub use shading::Shading;

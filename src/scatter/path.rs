@@ -15,7 +15,7 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface, World};
+use crate::build::{Colour, Cone, Crossing, MediaSet, Met, Shading, Surface, World};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Health, Ray, Vec3};
 use crate::optics::Interface;
@@ -45,6 +45,8 @@ struct Path {
     depth: u32,
     /// Specular events.
     events: u32,
+    /// µm, once something has dispersed.
+    wavelength: Option<f64>,
     falloff: Option<[f64; 3]>,
 }
 
@@ -65,13 +67,17 @@ const REFRACTED: usize = 2;
 /// The dimension of the first surface's draw; the next ones follow.
 const ROULETTE: u64 = 2;
 
+/// The dimension of the wavelength, far from those of any surface.
+const WAVELENGTH: u64 = 1 << 32;
+
 impl Walk<'_> {
     /// Follows one photon to its end.
     pub fn follow(&self, start: Start, sequence: Sequence, sink: &mut Sink) {
         sink.ledger.paths += 1;
         sink.ledger.emitted += start.power;
         let Start { ray, power, media, falloff, .. } = start;
-        let mut path = Path { ray, power, media, length: 0.0, depth: 0, events: 0, falloff };
+        let mut path =
+            Path { ray, power, media, length: 0.0, depth: 0, events: 0, wavelength: None, falloff };
         let mut t_max = start.t_max;
         loop {
             sink.ledger.rays += 1;
@@ -190,9 +196,16 @@ impl Walk<'_> {
         sequence: Sequence,
         sink: &mut Sink,
     ) -> bool {
-        let before = path.power;
         let on = km + through;
-        let eta = crossing.map_or(1.0, |c| self.world.medium(&c.after).0 / self.world.medium(&path.media).0);
+        let before = path.power;
+        let u = || sequence.dimension(WAVELENGTH).value();
+        let (eta, colour) = crossing.map_or((1.0, Colour { um: path.wavelength, weight: Vec3::ONE }), |c| {
+            self.world.relative_ior(&path.media, &c.after, path.wavelength, u)
+        });
+        path.wavelength = colour.um;
+        path.power *= colour.weight.as_dvec3();
+        sink.ledger.roulette += (before - path.power) * on;
+        let before = path.power;
         let interface = shading.interface(eta);
         let f = interface.reflectance;
         let way = |weight| Way { weight, factor: 1.0, dir: None };
