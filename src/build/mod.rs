@@ -5,6 +5,7 @@
 mod assemble;
 pub mod bvh;
 mod camera;
+mod examine;
 pub mod images;
 mod lights;
 mod materials;
@@ -19,6 +20,7 @@ mod world;
 use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
+pub use examine::examine;
 pub use media::MediaSet;
 use std::path::PathBuf;
 pub use surface::Surface;

@@ -14,6 +14,7 @@ mod light;
 mod material;
 mod names;
 mod object;
+mod places;
 mod read;
 mod scene;
 mod schema;
@@ -27,7 +28,7 @@ mod value;
 
 pub use camera::Camera;
 pub use convert::{NotWritable, to_string};
-pub use diagnostic::{Diagnostic, Kind, Report, Severity};
+pub use diagnostic::{Diagnostic, Finding, Kind, Report, Severity};
 pub use light::{EnvironmentMap, Light};
 pub use material::{BumpMap, Ior, Material, NAMED_IOR, NormalMap};
 pub use names::NameMap;
@@ -36,6 +37,8 @@ pub use read::{Format, Loaded, load, load_as_written, load_str, load_str_as_writ
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use settings::{Antialiasing, Image, Render};
+pub(crate) use suggest::{listed, question};
 pub use texture::{ColorSpace, Texture, UvMapping, Wrap};
 pub use transform::{Scale, Transform};
+pub use tree::Path as Place;
 pub use value::{Rgb, Source, TextureRef, Vector};

@@ -1,14 +1,14 @@
 //! Shapes, transforms, scatter; names of objects.
 
 use super::Checker;
-use crate::description::tree::{Path, Step, number};
+use crate::description::tree::{Path, number};
 use crate::description::{Object, Scale, Scatter, Shape, Transform};
 use glam::{DMat3, DVec3};
 use std::collections::HashMap;
 
 /// The place of `objects`.
 pub(super) fn list() -> Path {
-    Path(vec![Step::Key("objects".into())])
+    Path::of("objects")
 }
 
 pub(super) fn check(c: &mut Checker) {
