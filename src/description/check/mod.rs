@@ -14,6 +14,7 @@ use super::diagnostic::{Diagnostic, Kind, Report, Severity};
 use super::source::Sources;
 use super::tree::{Index, Path, number};
 use super::{Object, Scene, Shape};
+use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
@@ -148,6 +149,11 @@ impl Checker<'_> {
     fn direction(&mut self, path: &Path, v: super::Vector) {
         if v == [0.0; 3] {
             self.error(path, "a direction cannot be (0, 0, 0)");
+        } else if DVec3::from(v).try_normalize().is_none() {
+            self.error(
+                path,
+                "a direction this long or short cannot be told: its square leaves the range of numbers",
+            );
         }
     }
 }
