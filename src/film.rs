@@ -26,7 +26,7 @@ impl Film {
     pub fn channels(&self, layer: Layer) -> Vec<Vec<f32>> {
         let n = self.width as usize * self.height as usize;
         let count = match layer {
-            Layer::Depth | Layer::Object | Layer::Samples | Layer::Edges => 1,
+            Layer::Depth | Layer::Object | Layer::Samples | Layer::Edges | Layer::PhotonDensity => 1,
             _ => 3,
         };
         let mut channels = vec![vec![0.0; n]; count];

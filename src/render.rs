@@ -2,16 +2,19 @@
 
 mod image;
 mod options;
+mod photons;
 mod stats;
 
 use crate::build::{self, Built};
 use crate::description::Loaded;
 use crate::film::Film;
 use crate::math::Rare;
+use crate::output;
 use crate::plan::{Antialiasing, Plan};
 use crate::trace::{self, Tally, Tracer};
-use crate::{index, output, scatter};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
+use photons::PhotonStage;
+pub use photons::{LightPhotons, PhotonStats, Watts};
 use rayon::prelude::*;
 pub use stats::{RareEvent, StageTime, Stats};
 use std::path::PathBuf;
@@ -44,7 +47,7 @@ pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Re
 
 fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     let mut clock = Clock::default();
-    let plan = Plan::new(&loaded.scene, options.passes, options.seed);
+    let plan = Plan::new(&loaded.scene, options.passes.clone(), options.seed);
     options.check(&plan)?;
     clock.lap("plan");
 
@@ -54,27 +57,47 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     clock.lap("build");
 
     let wants = options.wants();
-    let mut tracer = Tracer { world: &world, plan: &plan, wants, reference_level: 1.0 };
+    let mut tracer = Tracer { world: &world, plan: &plan, wants, reference_level: 1.0, caustics: None };
     if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
         tracer.reference_level = trace::reference_level(&tracer);
     }
+    let stage = PhotonStage::new(&world, &plan);
+    let mut photon_stats = stage.as_ref().map(|stage| PhotonStats::new(stage, &world));
+    clock.lap("pilot");
+
     let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(&wants));
     let mut tally = Tally::default();
     progress.start("trace", film.tiles.len() as u64 * u64::from(plan.passes), "tiles");
-    for first in (0..plan.passes).step_by(BATCH as usize) {
-        let batch = first..(first + BATCH).min(plan.passes);
-        // The gather stage of tracing has nothing to ask while the plan scatters nothing.
-        let _map = index::map(scatter::photons(&plan));
-        let tallies: Vec<Tally> = film
-            .tiles
-            .par_iter_mut()
-            .map(|tile| {
-                let tally = trace::passes(&tracer, batch.clone(), tile);
-                progress.advance(u64::from(batch.end - batch.start));
-                tally
-            })
-            .collect();
+    let last = plan.first_pass + plan.passes;
+    let scatter = |pass: u32| stage.as_ref().map(|stage| stage.pass(&world, pass));
+    let batch = stage.as_ref().filter(|stage| !stage.one_map()).map_or(BATCH, |_| 1);
+    let mut photons = scatter(plan.first_pass);
+    for first in (plan.first_pass..last).step_by(batch as usize) {
+        let passes = first..(first + batch).min(last);
+        if let (Some(stats), Some(stage), Some(photons)) = (&mut photon_stats, &stage, &photons) {
+            stats.add(stage, photons);
+        }
+        let tracer = Tracer {
+            caustics: stage.as_ref().zip(photons.as_ref()).map(|(stage, photons)| stage.caustics(photons)),
+            ..tracer
+        };
+        let trace = || -> Vec<Tally> {
+            film.tiles
+                .par_iter_mut()
+                .map(|tile| {
+                    let tally = trace::passes(&tracer, passes.clone(), tile);
+                    progress.advance(u64::from(passes.end - passes.start));
+                    tally
+                })
+                .collect()
+        };
+        // The next pass's photons are scattered beside this pass's tiles.
+        let another = batch == 1 && passes.end < last;
+        let (tallies, next) = rayon::join(trace, || another.then(|| scatter(passes.end)).flatten());
         tallies.iter().for_each(|t| tally.add(t));
+        if another {
+            photons = next;
+        }
     }
     progress.finish();
     clock.lap("trace");
@@ -84,7 +107,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         refuse_excesses(&tally)?;
     }
     let image = image::assemble(&film, options);
-    let stats = Stats::new(clock.stages, &tally, &plan, &film, &world);
+    let stats = Stats::new(clock.stages, &tally, &plan, &film, &world, photon_stats);
     let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
     Ok(Rendered { image, provenance, stats, warnings, files })
 }

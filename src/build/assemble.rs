@@ -2,6 +2,7 @@
 //! tree over all placed objects is built.
 
 use super::bvh::Bvh;
+use super::contact::Contacts;
 use super::lights::Lights;
 use super::materials::{Surfaces, rgb};
 use super::media::Medium;
@@ -45,6 +46,7 @@ pub(super) fn assemble(
         placed.instances[instance as usize].rank = rank as u32 + 1;
     }
     let coincidence = media.coincidence(&placed.instances, &placed.geometries, &bounds);
+    let contacts = Contacts::find(&media.ranked, &placed.instances, &bounds);
     let media = media
         .ranked
         .iter()
@@ -66,6 +68,7 @@ pub(super) fn assemble(
         environment: lights.environment,
         environment_visible: lights.environment_visible,
         media,
+        contacts,
         coincidence,
         background: rgb(&scene.background),
         ambient: rgb(&scene.ambient),

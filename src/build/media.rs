@@ -6,8 +6,7 @@
 //! priority is itself. A path carries the set of ranks that it is inside of; entering and leaving are
 //! idempotent, so that a surface met twice does no harm.
 
-use super::surface::Surface;
-use super::world::{Hit, World};
+use super::world::World;
 use crate::math::{DVec3, Ray, Vec3};
 
 /// The inside of a transmissive instance.
@@ -20,13 +19,13 @@ pub struct Medium {
 }
 
 /// Transmissive objects that may overlap at one point.
-const CAPACITY: usize = 12;
+const CAPACITY: usize = 7;
 
 /// The set of ranks that a point is inside of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MediaSet {
     ranks: [u32; CAPACITY],
-    len: u8,
+    len: u32,
 }
 
 impl MediaSet {
@@ -44,15 +43,15 @@ impl MediaSet {
     pub fn crossed(mut self, rank: u32, inwards: bool) -> Option<MediaSet> {
         let position = self.entries().iter().position(|&r| r == rank);
         match (inwards, position) {
-            (true, None) if usize::from(self.len) == CAPACITY => return None,
+            (true, None) if self.len as usize == CAPACITY => return None,
             (true, None) => {
-                self.ranks[usize::from(self.len)] = rank;
+                self.ranks[self.len as usize] = rank;
                 self.len += 1;
             }
             (false, Some(i)) => {
                 self.len -= 1;
-                self.ranks[i] = self.ranks[usize::from(self.len)];
-                self.ranks[usize::from(self.len)] = 0;
+                self.ranks[i] = self.ranks[self.len as usize];
+                self.ranks[self.len as usize] = 0;
             }
             _ => {}
         }
@@ -60,7 +59,7 @@ impl MediaSet {
     }
 
     fn entries(&self) -> &[u32] {
-        &self.ranks[..usize::from(self.len)]
+        &self.ranks[..self.len as usize]
     }
 }
 
@@ -95,25 +94,6 @@ impl World {
         let ray = Ray { origin: p, dir };
         self.nearest_of(instance, &ray, f64::INFINITY)
             .is_some_and(|hit| self.surface(&ray, &hit).ng.dot(dir) > 0.0)
-    }
-
-    /// The opaque surface that coincides with the transmissive one that `ray` has met: it hides it, so
-    /// that glass may stand on a table and neither face decides by its rounding.
-    pub fn opaque_at(&self, ray: &Ray, surface: &Surface) -> Option<Hit> {
-        let band = 4.0 * surface.p_error / ray.dir.dot(surface.ng).abs().max(1e-3);
-        let start = surface.t - band;
-        let probe = Ray { origin: ray.at(start), dir: ray.dir };
-        let mut best: Option<Hit> = None;
-        self.tree.nearest(&super::world::box_ray(&probe), crate::math::round_up(2.0 * band), |other, _| {
-            if self.instances[other as usize].rank != 0 {
-                return None;
-            }
-            let limit = best.map_or(2.0 * band, |h| h.t);
-            let hit = self.nearest_of(other, &probe, limit)?;
-            best = Some(hit);
-            Some(crate::math::round_up(hit.t))
-        });
-        best.map(|hit| Hit { t: start + hit.t, ..hit })
     }
 
     /// Crossings of other transmissive instances within `tolerance` metres, along the normal, of the

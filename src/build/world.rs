@@ -5,6 +5,7 @@
 //! traversed in single precision with every rounding bounded.
 
 use super::bvh::{BoxRay, Bvh, TriangleBvh};
+use super::contact::Contacts;
 use super::media::Medium;
 use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
 use crate::optics::{
@@ -29,6 +30,8 @@ pub struct World {
     pub environment_visible: bool,
     /// Insides of transmissive instances, by rank: a later one wins where several overlap.
     pub media: Vec<Medium>,
+    /// What is opaque at the media's surfaces, by rank.
+    pub contacts: Vec<Contacts>,
     /// Surfaces of transmissive instances that are closer together than this along the normal, in
     /// metres, are one interface; 0 where none overlap.
     pub coincidence: f64,

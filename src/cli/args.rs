@@ -77,9 +77,10 @@ pub struct RenderArgs {
     pub format: ImageFormat,
     #[command(flatten)]
     pub reading: Reading,
-    /// Independent passes whose mean is the image; the scene's if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub passes: Option<u32>,
+    /// Independent passes whose mean is the image, or a range of them such as `8..16` (8 to 15), to be
+    /// averaged with the others later; the scene's if not given
+    #[arg(long, value_name = "N or A..B", value_parser = passes)]
+    pub passes: Option<std::ops::Range<u32>>,
     /// Seed of every random value; the scene's if not given
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -87,7 +88,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Further layers of the EXR: albedo, normal, depth, position, object_id, samples, direct,
-    /// reflection, refraction, variance, edges
+    /// reflection, refraction, caustic, indirect, photons, photon_density, variance, edges
     #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
     pub aov: Vec<Aov>,
     /// Edge of a tile in pixels. The image does not depend on it
@@ -116,6 +117,20 @@ pub struct RenderArgs {
     /// Print the plan and the files that were read
     #[arg(short, long)]
     pub verbose: bool,
+}
+
+/// Passes: how many, or from the first to the one after the last.
+fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let number = |part: &str| part.trim().parse::<u32>().map_err(|e| format!("`{part}`: {e}"));
+    let range = match text.split_once("..") {
+        Some((first, end)) => number(first)?..number(end)?,
+        None => 0..number(text)?,
+    };
+    // A pass's number is below that of the photons' pilot.
+    if range.is_empty() || range.end == u32::MAX {
+        return Err("at least one pass is needed".to_owned());
+    }
+    Ok(range)
 }
 
 /// How a scene is read.

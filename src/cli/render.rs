@@ -103,7 +103,7 @@ fn options(args: &RenderArgs) -> Options {
     }
     Options {
         threads: args.threads.map(usize::from),
-        passes: args.passes,
+        passes: args.passes.clone(),
         seed: args.seed,
         aovs,
         tile: args.tile,
@@ -113,7 +113,7 @@ fn options(args: &RenderArgs) -> Options {
 
 /// The first line: what is rendered, how large, until when, with how many threads.
 fn announcement(args: &RenderArgs, scene: &Scene) -> String {
-    let passes = Plan::new(scene, args.passes, args.seed).passes;
+    let passes = Plan::new(scene, args.passes.clone(), args.seed).passes;
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
     format!(

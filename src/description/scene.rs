@@ -1,6 +1,8 @@
 //! The whole scene: the root of every scene file.
 
-use super::{Antialiasing, Camera, Image, Light, Material, NameMap, Object, Render, Rgb, Texture};
+use super::{
+    Antialiasing, Camera, Image, Indirect, Light, Material, NameMap, Object, Photons, Render, Rgb, Texture,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +26,12 @@ pub struct Scene {
     pub image: Image,
     pub antialiasing: Antialiasing,
     pub render: Render,
+    /// Caustics: light focused by glass, water and mirrors.
+    #[serde(skip_serializing_if = "Photons::is_default")]
+    pub photons: Photons,
+    /// Light that bounces between diffuse surfaces.
+    #[serde(skip_serializing_if = "Indirect::is_off")]
+    pub indirect: Indirect,
     /// Radiance seen by eye rays that leave the scene where no environment light shines. Lights nothing.
     pub background: Rgb,
     /// Classic constant ambient radiance: every diffuse surface reflects `diffuse · ambient`.

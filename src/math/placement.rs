@@ -16,6 +16,8 @@ pub struct Placement {
     scale: f64,
     /// Largest factor of length: a bound (Frobenius norm) on ‖M‖.
     stretch: f64,
+    /// Smallest factor of length: a bound, the inverse of the inverse's Frobenius norm.
+    least_stretch: f64,
     /// Whether the map moves without turning or scaling, as most do.
     translation_only: bool,
 }
@@ -28,6 +30,7 @@ impl Placement {
         det: 1.0,
         scale: 1.0,
         stretch: 1.0,
+        least_stretch: 1.0,
         translation_only: true,
     };
 
@@ -42,13 +45,17 @@ impl Placement {
         }
         let cofactors =
             DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+        let inverse = world_from_object.inverse();
+        let back = inverse.matrix3;
+        let back_norm = DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
         Some(Placement {
             world_from_object,
-            object_from_world: world_from_object.inverse(),
+            object_from_world: inverse,
             normal_matrix: cofactors * det.signum(),
             det,
             scale: libm::cbrt(det.abs()),
             stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },
+            least_stretch: if m == DMat3::IDENTITY { 1.0 } else { 1.0 / back_norm },
             translation_only: m == DMat3::IDENTITY,
         })
     }
@@ -104,9 +111,19 @@ impl Placement {
         self.det
     }
 
+    /// By how much the map stretches area across the object's unit normal `n`: |det M|·‖M⁻ᵀn‖.
+    pub fn area_factor(&self, n: DVec3) -> f64 {
+        self.det.abs() * (self.object_from_world.matrix3.transpose() * n).length()
+    }
+
     /// The factor by which a length grows on the way to the world, over all directions.
     pub fn scale(&self) -> f64 {
         self.scale
+    }
+
+    /// A lower bound on the factor by which any length grows on the way to the world.
+    pub fn least_stretch(&self) -> f64 {
+        self.least_stretch
     }
 
     /// An upper bound on the factor by which a length grows on the way to the world.

@@ -25,4 +25,11 @@ impl Ray {
         let side = if dir.dot(ng) >= 0.0 { p_error } else { -p_error };
         Ray { origin: p + ng * side, dir }
     }
+
+    /// The ray that goes through the surface point `p` in direction `dir` and starts just before it:
+    /// as [`Ray::leaving`], on the other side.
+    #[inline]
+    pub fn reaching(p: DVec3, p_error: f64, ng: DVec3, dir: DVec3) -> Ray {
+        Ray { dir, ..Ray::leaving(p, p_error, ng, -dir) }
+    }
 }

@@ -86,6 +86,21 @@ pub fn quadratic_roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     Some(if t <= s { [t, s] } else { [s, t] })
 }
 
+/// A vector whose length is 1 but for rounding, of length 1 again; any other is normalised as well.
+/// Newton's step for the inverse square root, whose error of 3/8·(‖v‖² − 1)² is far below one rounding.
+#[inline]
+pub fn renormalized(v: DVec3) -> DVec3 {
+    let length2 = v.length_squared();
+    let excess = length2 - 1.0;
+    if excess.abs() < 1e-8 { v * (1.0 - 0.5 * excess) } else { v * (1.0 / length2.sqrt()) }
+}
+
+/// 1/x, for x close to 1 without a division: 2 − x is off by (x − 1)².
+#[inline]
+fn reciprocal_near_one(x: f64) -> f64 {
+    if (x - 1.0).abs() < 1e-8 { 2.0 - x } else { 1.0 / x }
+}
+
 /// The two distances, ascending and different, at which the line `from_center` + t·`dir` crosses a
 /// sphere of `radius` around 0. `dir` need not be of unit length; a line that only touches misses.
 #[inline]
@@ -95,21 +110,17 @@ pub fn sphere_roots(from_center: DVec3, dir: DVec3, radius: f64) -> Option<[f64;
         return None;
     }
     let b = -from_center.dot(dir);
+    let inverse = reciprocal_near_one(a);
     // How far the line passes from the centre: small numbers only, however far the origin.
-    let nearest2 = (from_center + dir * (b / a)).length_squared();
-    // Certain to miss: said before the square roots. A NaN goes on, and is caught below.
-    if nearest2 > radius * radius * (1.0 + 8.0 * UNIT) {
-        return None;
-    }
-    let nearest = nearest2.sqrt();
-    let quarter_chord2 = (radius - nearest) * (radius + nearest);
+    let nearest2 = (from_center + dir * (b * inverse)).length_squared();
+    let radius2 = radius * radius;
+    let quarter_chord2 = radius2 - nearest2;
     if quarter_chord2 <= 0.0 || quarter_chord2.is_nan() {
         return None;
     }
-    let distance = from_center.length();
-    let c = (distance - radius) * (distance + radius);
+    let c = from_center.length_squared() - radius2;
     let q = b + (a * quarter_chord2).sqrt().copysign(b);
-    let (t, s) = (q / a, c / q);
+    let (t, s) = (q * inverse, c / q);
     let roots = if t <= s { [t, s] } else { [s, t] };
     (roots[0] < roots[1]).then_some(roots)
 }

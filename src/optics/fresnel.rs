@@ -3,6 +3,7 @@
 //! Walter, Marschner, Li, Torrance 2007, section 5, for the vector forms; Born & Wolf, Principles of
 //! Optics, section 1.5, for the amplitudes.
 
+use crate::math::robust::renormalized;
 use glam::DVec3;
 
 /// What an interface does with light that comes along −wo.
@@ -36,14 +37,14 @@ impl Interface {
 
 /// The mirror image of `wo` about the unit normal `n`; both point away from the surface.
 pub fn reflected(wo: DVec3, n: DVec3) -> DVec3 {
-    (n * (2.0 * wo.dot(n)) - wo).normalize()
+    renormalized(n * (2.0 * wo.dot(n)) - wo)
 }
 
 /// The direction in which light that comes along −wo goes on behind the interface. `n` is the unit
 /// normal on wo's side, `cos_t` from [`Interface::new`] with the same `eta`.
 pub fn refracted(wo: DVec3, n: DVec3, eta: f64, cos_t: f64) -> DVec3 {
     let cos_i = wo.dot(n);
-    (n * (cos_i / eta - cos_t) - wo / eta).normalize()
+    renormalized((n * (cos_i - eta * cos_t) - wo) * (1.0 / eta))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Effects, each decided with its reason in the scene's own names.
 
-use crate::description::{Light, Material, Scene, Source};
+use crate::description::{Light, Material, Photons, Scene, Source};
 use std::fmt;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +11,7 @@ pub enum Effect {
     Refraction,
     Absorption,
     Caustics,
+    Indirect,
     Textures,
     NormalMaps,
     DepthOfField,
@@ -26,6 +27,7 @@ impl Effect {
             Effect::Refraction => "refraction",
             Effect::Absorption => "absorption",
             Effect::Caustics => "caustics",
+            Effect::Indirect => "indirect",
             Effect::Textures => "textures",
             Effect::NormalMaps => "normal maps",
             Effect::DepthOfField => "depth of field",
@@ -77,11 +79,12 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
         decision(Effect::Reflection, named(&|m| !m.reflection.is_zero()), "no material reflects"),
         decision(Effect::Refraction, named(&|m| !m.transmission.is_zero()), "no material transmits"),
         decision(Effect::Absorption, named(&|m| !m.absorption.is_zero()), "no material absorbs inside"),
-        Decision {
-            effect: Effect::Caustics,
-            on: false,
-            reason: "this version scatters no photons; glass and mirrors cast plain shadows".to_owned(),
-        },
+        caustics(scene, &named, light(&|_| true).or_else(emitting)),
+        decision(
+            Effect::Indirect,
+            (!scene.indirect.is_off()).then(|| "the scene asks for it".to_owned()),
+            "the scene does not ask for it",
+        ),
         decision(Effect::Textures, named(&sources), "no material names a texture"),
         decision(
             Effect::NormalMaps,
@@ -95,6 +98,22 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             "no light is an environment",
         ),
     ]
+}
+
+/// Light can be focused where there is light, and something that bends or mirrors it.
+fn caustics(
+    scene: &Scene,
+    named: &dyn Fn(&dyn Fn(&Material) -> bool) -> Option<String>,
+    light: Option<String>,
+) -> Decision {
+    let specular = named(&|m| !m.reflection.is_zero() || !m.transmission.is_zero());
+    let (on, reason) = match (scene.photons, light, specular) {
+        (Photons::Off, _, _) => (false, "the scene turns photons off".to_owned()),
+        (_, None, _) => (false, "the scene has no light".to_owned()),
+        (_, _, None) => (false, "no material reflects or transmits".to_owned()),
+        (_, Some(light), Some(specular)) => (true, format!("{light} and {specular}")),
+    };
+    Decision { effect: Effect::Caustics, on, reason }
 }
 
 fn decision(effect: Effect, found: Option<String>, otherwise: &str) -> Decision {

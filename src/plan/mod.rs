@@ -4,10 +4,13 @@
 //! allocate or load.
 
 mod effects;
+mod photons;
 
 pub use crate::description::Antialiasing;
-use crate::description::{Light, Scene};
+use crate::description::{Indirect, Light, Scene};
 pub use effects::{Decision, Effect};
+pub use photons::{Kernel, PhotonBudget, PhotonEngine};
+use std::ops::Range;
 
 /// What a render will do.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,12 +18,18 @@ pub struct Plan {
     pub antialiasing: Antialiasing,
     /// Independent passes whose mean is the image.
     pub passes: u32,
+    /// The number of the first of them.
+    pub first_pass: u32,
     pub seed: u64,
     /// Specular events in a row after which a path is cut.
     pub max_depth: u32,
     /// Branches of at least this weight are always followed; lighter ones survive by chance, in
     /// proportion, with their weight raised to it.
     pub split_weight: f64,
+    /// Caustics, where the scene calls for them.
+    pub photons: Option<PhotonBudget>,
+    /// Bounces between diffuse surfaces at most; 0 without indirect light.
+    pub bounces: u32,
     pub decisions: Vec<Decision>,
 }
 
@@ -31,20 +40,31 @@ const DEFAULT_PASSES: u32 = 64;
 const SINGLE_PASS_LIGHT_SAMPLES: u32 = 16;
 
 impl Plan {
-    /// `passes` and `seed` override the scene's.
-    pub fn new(scene: &Scene, passes: Option<u32>, seed: Option<u64>) -> Plan {
+    /// `passes` (the numbers from the first to the one after the last) and `seed` override the scene's.
+    pub fn new(scene: &Scene, passes: Option<Range<u32>>, seed: Option<u64>) -> Plan {
         let progressive = scene.antialiasing == Antialiasing::Progressive;
+        let decisions = effects::decide(scene);
+        let caustics = decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
         Plan {
             antialiasing: scene.antialiasing,
             passes: passes
+                .as_ref()
+                .map(|range| range.end.saturating_sub(range.start))
                 .or(scene.render.passes)
                 .unwrap_or(if progressive { DEFAULT_PASSES } else { 1 })
                 .max(1),
+            first_pass: passes.map_or(0, |range| range.start),
             seed: seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.
             split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
-            decisions: effects::decide(scene),
+            photons: photons::budget(scene).filter(|_| caustics),
+            bounces: match scene.indirect {
+                Indirect::Off => 0,
+                Indirect::On => u32::MAX,
+                Indirect::Bounces(n) => n,
+            },
+            decisions,
         }
     }
 

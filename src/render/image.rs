@@ -29,6 +29,10 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
             Aov::Direct => (&RGB, Layer::Direct),
             Aov::Reflection => (&RGB, Layer::Reflection),
             Aov::Refraction => (&RGB, Layer::Refraction),
+            Aov::Caustic => (&RGB, Layer::Caustic),
+            Aov::Indirect => (&RGB, Layer::Indirect),
+            Aov::Photons => (&RGB, Layer::Photons),
+            Aov::PhotonDensity => (&["Y"], Layer::PhotonDensity),
             Aov::Variance => (&RGB, Layer::Variance),
             Aov::Edges => (&["Y"], Layer::Edges),
         };

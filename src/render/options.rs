@@ -3,6 +3,7 @@
 use crate::build::BuildError;
 use crate::plan::{Antialiasing, Plan};
 use crate::trace::Wants;
+use std::ops::Range;
 use std::str::FromStr;
 
 /// Options of one render. They override what the scene says.
@@ -10,7 +11,9 @@ use std::str::FromStr;
 pub struct Options {
     /// Worker threads; without it one a processor. Never changes a pixel.
     pub threads: Option<usize>,
-    pub passes: Option<u32>,
+    /// The numbers of the passes, from the first to the one after the last: any part of a render's passes
+    /// can be rendered alone.
+    pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
     /// Further layers of the image.
     pub aovs: Vec<Aov>,
@@ -38,12 +41,16 @@ pub enum Aov {
     Direct,
     Reflection,
     Refraction,
+    Caustic,
+    Indirect,
+    Photons,
+    PhotonDensity,
     Variance,
     Edges,
 }
 
 impl Aov {
-    pub const ALL: [Aov; 11] = [
+    pub const ALL: [Aov; 15] = [
         Aov::Albedo,
         Aov::Normal,
         Aov::Depth,
@@ -53,6 +60,10 @@ impl Aov {
         Aov::Direct,
         Aov::Reflection,
         Aov::Refraction,
+        Aov::Caustic,
+        Aov::Indirect,
+        Aov::Photons,
+        Aov::PhotonDensity,
         Aov::Variance,
         Aov::Edges,
     ];
@@ -69,6 +80,10 @@ impl Aov {
             Aov::Direct => "direct",
             Aov::Reflection => "reflection",
             Aov::Refraction => "refraction",
+            Aov::Caustic => "caustic",
+            Aov::Indirect => "indirect",
+            Aov::Photons => "photons",
+            Aov::PhotonDensity => "photon_density",
             Aov::Variance => "variance",
             Aov::Edges => "edges",
         }
@@ -96,8 +111,9 @@ impl Options {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
-            split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction]),
+            split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
             variance: any(&[Aov::Variance]),
+            photons: any(&[Aov::Photons, Aov::PhotonDensity]),
         }
     }
 

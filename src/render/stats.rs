@@ -1,5 +1,6 @@
 //! What a render cost and counted, for people and machines.
 
+use super::PhotonStats;
 use crate::build::{Geometry, World};
 use crate::film::Film;
 use crate::math::Rare;
@@ -20,6 +21,8 @@ pub struct Stats {
     /// The weight of those paths as a share of all camera samples.
     pub truncated_weight: f64,
     pub rare_events: Vec<RareEvent>,
+    /// Without caustics: none.
+    pub photons: Option<PhotonStats>,
     pub memory: Memory,
     #[serde(rename = "scene_size")]
     pub scene: SceneSize,
@@ -48,6 +51,8 @@ pub struct Memory {
     pub trees_bytes: usize,
     pub textures_bytes: usize,
     pub film_bytes: usize,
+    /// The largest photon map.
+    pub photons_bytes: usize,
 }
 
 /// What the built world holds.
@@ -66,6 +71,7 @@ impl Stats {
         plan: &Plan,
         film: &Film,
         world: &World,
+        photons: Option<PhotonStats>,
     ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
@@ -80,7 +86,7 @@ impl Stats {
                 Geometry::Shape(_) => None,
             })
         };
-        Stats {
+        let mut stats = Stats {
             stages,
             passes: plan.passes,
             samples: health.samples,
@@ -88,7 +94,9 @@ impl Stats {
             truncated_paths: tally.cut.paths,
             truncated_weight: tally.cut.weight / (health.samples.max(1) as f64),
             rare_events: rare_events.collect(),
+            photons: None,
             memory: Memory {
+                photons_bytes: photons.as_ref().map_or(0, |p| p.map_bytes),
                 geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()
                     + size_of_val(world.instances.as_slice()),
                 trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>()
@@ -101,6 +109,8 @@ impl Stats {
                 triangles: meshes().map(|m| m.surface.triangles.len()).sum(),
                 emitters: world.emitters.len(),
             },
-        }
+        };
+        stats.photons = photons;
+        stats
     }
 }

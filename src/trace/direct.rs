@@ -6,9 +6,8 @@
 
 use super::light::{Arrival, LightSample};
 use super::path::LIGHTS;
-use super::shade::Shading;
 use super::{Tally, Tracer};
-use crate::build::{MediaSet, Surface};
+use crate::build::{MediaSet, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{Ray, Vec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
@@ -38,7 +37,7 @@ impl Tracer<'_> {
                 }
                 tally.rays.shadow += 1;
                 if self.visible(surface, shading, &sample) {
-                    light += value * self.transmittance(media, sample.distance);
+                    light += value * self.world.transmittance(media, sample.distance);
                 }
             }
             sum += light / emitter.samples as f32;

@@ -1,8 +1,7 @@
 //! Samples of emitters as a shading point sees them.
 
 use super::Tracer;
-use super::shade::Shading;
-use crate::build::{Geometry, Hit, Surface};
+use crate::build::{Geometry, Hit, Shading, Surface};
 use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
 use crate::optics::{Emitter, EmitterKind, Shape, TexturePoint, sample_triangle_direction, spot_falloff};
 use std::f64::consts::FRAC_1_PI;

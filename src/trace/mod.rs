@@ -4,16 +4,17 @@
 //! scene, the pixel and the pass alone, so that tiles of any size on any number of threads agree.
 
 mod antialias;
+mod bounce;
+mod caustic;
 mod direct;
-mod footprint;
 mod light;
 mod path;
 mod reference_level;
 mod sample;
-mod shade;
 mod tile;
 
 use crate::build::World;
+use crate::index::Caustics;
 use crate::math::Health;
 use crate::plan::Plan;
 pub use path::Scratch;
@@ -29,11 +30,15 @@ pub struct Rays {
     pub shadow: u64,
     pub reflection: u64,
     pub refraction: u64,
+    /// On from diffuse surfaces, for indirect light.
+    pub diffuse: u64,
+    /// Short ones, for where a surface ends under a caustic.
+    pub probe: u64,
 }
 
 impl Rays {
     pub fn total(&self) -> u64 {
-        self.camera + self.shadow + self.reflection + self.refraction
+        self.camera + self.shadow + self.reflection + self.refraction + self.diffuse + self.probe
     }
 }
 
@@ -60,6 +65,8 @@ impl Tally {
         self.rays.shadow += other.rays.shadow;
         self.rays.reflection += other.rays.reflection;
         self.rays.refraction += other.rays.refraction;
+        self.rays.diffuse += other.rays.diffuse;
+        self.rays.probe += other.rays.probe;
         self.health.add(&other.health);
         self.cut.paths += other.cut.paths;
         self.cut.weight += other.cut.weight;
@@ -73,6 +80,8 @@ pub struct Tracer<'a> {
     pub wants: Wants,
     /// Luminance that counts as middling in this scene: see [`reference_level`].
     pub reference_level: f32,
+    /// The photons of the passes that are traced; none where the plan has no caustics.
+    pub caustics: Option<Caustics<'a>>,
 }
 
 /// Adds the passes of `passes` to a tile, in order.
@@ -87,5 +96,10 @@ pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile) ->
 
 /// The layers that a film needs for what is wanted of each sample.
 pub fn layers(wants: &Wants) -> Layers {
-    Layers { first_hit: wants.first_hit, split: wants.split, variance: wants.variance }
+    Layers {
+        first_hit: wants.first_hit,
+        split: wants.split,
+        variance: wants.variance,
+        photons: wants.photons,
+    }
 }

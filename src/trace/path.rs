@@ -10,18 +10,16 @@
 //! more than about 1 / split_weight branches. (n₁/n₂)² is the compression of solid angle across an
 //! interface (Veach 1997, 5.2).
 
-use super::footprint::Cone;
+use super::bounce;
 use super::sample::FirstHit;
-use super::shade::Shading;
 use super::{Sample, Tally, Tracer};
-use crate::build::{MediaSet, Surface};
+use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
 use crate::math::random::Sequence;
-use crate::math::{DVec2, DVec3, Rare, Ray, Vec3};
-use crate::optics::{Interface, reflected, refracted};
+use crate::math::{DVec2, Ray, Vec3};
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Class {
+pub(super) enum Class {
     Direct,
     Reflection,
     Refraction,
@@ -35,14 +33,17 @@ impl Class {
 
 /// A part of a path that is still to be followed.
 #[derive(Clone, Copy, Debug)]
-struct Branch {
-    ray: Ray,
-    throughput: Vec3,
-    media: MediaSet,
-    cone: Cone,
-    depth: u32,
-    sequence: Sequence,
-    class: Class,
+pub(super) struct Branch {
+    pub ray: Ray,
+    pub throughput: Vec3,
+    pub media: MediaSet,
+    pub cone: Cone,
+    /// Specular events in a row.
+    pub depth: u32,
+    /// Diffuse surfaces behind it.
+    pub bounces: u32,
+    pub sequence: Sequence,
+    pub class: Class,
 }
 
 /// Dimensions of a path vertex's random values.
@@ -51,6 +52,9 @@ const ROULETTE: u64 = 2;
 const MIRROR: u64 = 3;
 const REFLECTED: u64 = 4;
 const REFRACTED: u64 = 5;
+
+pub(super) const BOUNCE: u64 = 7;
+pub(super) const COVERAGE: u64 = 8;
 
 /// Dimensions of a camera sample.
 const LENS: u64 = 6;
@@ -93,6 +97,7 @@ impl Tracer<'_> {
             media: scratch.start,
             cone: Cone { width: 0.0, spread: camera.pixel_spread() },
             depth: 0,
+            bounces: 0,
             sequence,
             class: Class::Direct,
         };
@@ -107,33 +112,41 @@ impl Tracer<'_> {
 
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
-            return deposit(sample, branch.class, branch.throughput * self.leaving(branch));
+            return self.deposit(sample, branch, self.leaving(branch));
         };
-        let mut surface = self.world.surface(&branch.ray, &hit);
-        if self.world.instances[hit.instance as usize].rank != 0
-            && let Some(opaque) = self.world.opaque_at(&branch.ray, &surface)
-        {
-            surface = self.world.surface(&branch.ray, &opaque);
-        }
-        branch.throughput *= self.transmittance(&branch.media, surface.t);
+        let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
+        branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
-        let shading = Shading::new(self.world, &surface, wo, &branch.cone);
+        let mut shading = Shading::new(self.world, &surface, wo, &branch.cone);
         if self.wants.first_hit && branch.depth == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
-        if let Some((after, tolerance)) = self.crossing(branch, &surface, &shading, tally) {
-            if after.top() == branch.media.top() {
-                // Within an object of higher priority this surface does not exist.
-                let ray = Ray::leaving(surface.p, tolerance, surface.ng, branch.ray.dir);
-                let next = Branch { ray, media: after, cone: branch.cone.after(surface.t), ..*branch };
-                return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
+        let crossing =
+            self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
+        match (crossing, behind) {
+            (Some(crossing), Some(opaque)) if crossing.after.top() == branch.media.top() => {
+                // Nothing is left here, so that what is opaque shows.
+                surface = self.world.surface(&branch.ray, &opaque);
+                shading = Shading::new(self.world, &surface, wo, &branch.cone);
             }
-            self.interface(branch, &surface, &shading, after, tolerance, todo, tally);
+            (Some(crossing), _) => {
+                if crossing.after.top() == branch.media.top() {
+                    // Within an object of higher priority this surface does not exist.
+                    let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
+                    let cone = branch.cone.after(surface.t);
+                    let next = Branch { ray, media: crossing.after, cone, ..*branch };
+                    return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
+                }
+                self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally);
+            }
+            _ => {}
         }
-        let radiance = shading.emitted() + self.shaded(branch, &surface, &shading, tally);
-        deposit(sample, branch.class, branch.throughput * radiance);
+        // After a bounce, lights have been counted where the path left.
+        let emitted = if branch.bounces == 0 { shading.emitted() } else { Vec3::ZERO };
+        let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
+        self.deposit(sample, branch, radiance);
         if shading.km != Vec3::ZERO {
-            let wi = self.above(reflected(wo, shading.ns), &shading, tally);
+            let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
             let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
             tally.rays.reflection += 1;
@@ -144,6 +157,9 @@ impl Tracer<'_> {
     /// What a ray meets that leaves the scene.
     fn leaving(&self, branch: &Branch) -> Vec3 {
         let world = self.world;
+        if branch.bounces > 0 {
+            return Vec3::ZERO;
+        }
         let (_, absorption) = world.medium(&branch.media);
         if absorption != Vec3::ZERO {
             return Vec3::ZERO;
@@ -154,100 +170,42 @@ impl Tracer<'_> {
         }
     }
 
-    /// Beer–Lambert over `t` metres of the medium.
-    pub(super) fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
-        let (_, absorption) = self.world.medium(media);
-        if absorption == Vec3::ZERO {
-            return Vec3::ONE;
-        }
-        Vec3::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
-    }
-
-    /// The media behind a transmissive surface, with the offset that clears all surfaces that
-    /// coincide with it. `None` where nothing is transmitted.
-    fn crossing(
-        &self,
-        branch: &Branch,
-        surface: &Surface,
-        shading: &Shading,
-        tally: &mut Tally,
-    ) -> Option<(MediaSet, f64)> {
-        let world = self.world;
-        let rank = world.instances[surface.instance as usize].rank;
-        if rank == 0 || shading.kt == Vec3::ZERO {
-            return None;
-        }
-        let dir = branch.ray.dir;
-        let mut cross = |media: MediaSet, rank, inwards| {
-            media.crossed(rank, inwards).unwrap_or_else(|| {
-                tally.health.count(Rare::MediaOverflow);
-                media
-            })
-        };
-        let mut after = cross(branch.media, rank, dir.dot(surface.ng) < 0.0);
-        if world.coincidence == 0.0 {
-            return Some((after, surface.p_error));
-        }
-        let tolerance = 2.0 * world.coincidence.max(surface.p_error);
-        world.coincident(surface.p, surface.ng, dir, surface.instance, tolerance, |rank, inwards| {
-            after = cross(after, rank, inwards);
-        });
-        Some((after, 2.0 * tolerance))
-    }
-
-    /// Pushes the reflected and the refracted branch of an interface.
+    /// Pushes the reflected and the refracted branch of an interface; `touches` if something opaque lies
+    /// right behind it.
     #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
     fn interface(
         &self,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
-        after: MediaSet,
-        tolerance: f64,
+        crossing: &Crossing,
+        touches: bool,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
     ) {
-        let wo = -branch.ray.dir;
         let (near, _) = self.world.medium(&branch.media);
-        let (far, _) = self.world.medium(&after);
+        let (far, _) = self.world.medium(&crossing.after);
         let eta = far / near;
-        let n = shading.ns;
-        let interface = Interface::new(wo.dot(n).max(0.0), eta);
+        let interface = shading.interface(eta);
         let weight = (Vec3::ONE - shading.km) * shading.kt;
         let cone = branch.cone.after(surface.t);
         if interface.reflectance > 0.0 {
-            let wi = self.above(reflected(wo, n), shading, tally);
-            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            let wi = shading.mirrored(&mut tally.health);
+            let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.reflection += 1;
             let weight = weight * interface.reflectance as f32;
             self.push(Branch { ray, cone, ..*branch }, weight, REFLECTED, Class::Reflection, todo, tally);
         }
         if interface.reflectance < 1.0 {
-            let mut wi = refracted(wo, n, eta, interface.cos_t);
-            if wi.dot(shading.ng) >= 0.0 {
-                tally.health.count(Rare::DirectionThroughSurface);
-                let flat = Interface::new(wo.dot(shading.ng).max(0.0), eta);
-                if flat.reflectance == 1.0 {
-                    return;
-                }
-                wi = refracted(wo, shading.ng, eta, flat.cos_t);
-            }
-            let ray = Ray::leaving(surface.p, tolerance, surface.ng, wi);
+            let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
+            // From before the interface, which is no longer there for it, so that what touches is met.
+            let start = if touches { Ray::reaching } else { Ray::leaving };
+            let ray = start(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.refraction += 1;
             let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
-            let next = Branch { ray, media: after, cone: cone.refracted(eta), ..*branch };
+            let next = Branch { ray, media: crossing.after, cone: cone.refracted(eta), ..*branch };
             self.push(next, weight, REFRACTED, Class::Refraction, todo, tally);
         }
-    }
-
-    /// A mirrored direction that a bent shading normal has sent below the surface, mirrored back up.
-    fn above(&self, wi: DVec3, shading: &Shading, tally: &mut Tally) -> DVec3 {
-        let height = wi.dot(shading.ng);
-        if height > 0.0 {
-            return wi;
-        }
-        tally.health.count(Rare::DirectionThroughSurface);
-        (wi - shading.ng * (2.0 * height)).normalize()
     }
 
     /// Adds a branch, or drops it by chance in proportion to its weight, or by the depth limit.
@@ -261,7 +219,9 @@ impl Tracer<'_> {
         tally: &mut Tally,
     ) {
         branch.throughput *= weight;
-        branch.depth += 1;
+        if event != BOUNCE {
+            branch.depth += 1;
+        }
         branch.sequence = branch.sequence.dimension(event);
         branch.class = branch.class.then(class);
         let heaviest = branch.throughput.max_element();
@@ -273,7 +233,11 @@ impl Tracer<'_> {
             tally.cut.weight += f64::from(heaviest);
             return;
         }
-        let survival = f64::from(heaviest) / self.plan.split_weight;
+        let survival = if event == BOUNCE {
+            bounce::survival(f64::from(heaviest), branch.bounces)
+        } else {
+            f64::from(heaviest) / self.plan.split_weight
+        };
         if survival < 1.0 {
             if branch.sequence.dimension(ROULETTE).value() >= survival {
                 return;
@@ -283,12 +247,39 @@ impl Tracer<'_> {
         todo.push(branch);
     }
 
-    fn shaded(&self, branch: &Branch, surface: &Surface, shading: &Shading, tally: &mut Tally) -> Vec3 {
+    /// What the layers that are not specular send on; the path's further way is pushed.
+    fn shaded(
+        &self,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        sample: &mut Sample,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) -> Vec3 {
         let base = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt) * shading.kd;
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        base * self.world.ambient + self.direct(base, surface, shading, &branch.media, branch.sequence, tally)
+        let mut radiance = base * self.world.ambient
+            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
+        if let Some(caustics) = &self.caustics {
+            let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
+            radiance += caustic.radiance;
+            if branch.bounces == 0 {
+                sample.caustic += branch.throughput * caustic.radiance;
+                sample.photon_density += branch.throughput.max_element() * caustic.density;
+                if self.wants.photons {
+                    sample.photons += branch.throughput * self.photon_dots(caustics, branch, surface, shading);
+                }
+            }
+        }
+        if branch.bounces < self.plan.bounces
+            && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
+        {
+            self.push(next, weight, BOUNCE, branch.class, todo, tally);
+        }
+        radiance
     }
 
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {
@@ -302,13 +293,17 @@ impl Tracer<'_> {
             object: world.instances[surface.instance as usize].object + 1,
         }
     }
-}
 
-fn deposit(sample: &mut Sample, class: Class, radiance: Vec3) {
-    sample.radiance += radiance;
-    match class {
-        Class::Direct => sample.direct += radiance,
-        Class::Reflection => sample.reflection += radiance,
-        Class::Refraction => sample.refraction += radiance,
+    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3) {
+        let radiance = branch.throughput * radiance;
+        sample.radiance += radiance;
+        match branch.class {
+            Class::Direct => sample.direct += radiance,
+            Class::Reflection => sample.reflection += radiance,
+            Class::Refraction => sample.refraction += radiance,
+        }
+        if branch.bounces > 0 {
+            sample.indirect += radiance;
+        }
     }
 }

@@ -7,9 +7,11 @@ use crate::math::Vec3;
 pub struct Wants {
     /// Albedo, normal, depth, position, object.
     pub first_hit: bool,
-    /// Direct, reflected and refracted light apart.
+    /// Direct, reflected, refracted, focused and indirect light apart.
     pub split: bool,
     pub variance: bool,
+    /// Photons as dots, and their density.
+    pub photons: bool,
 }
 
 /// The radiance along one camera ray, W·m⁻²·sr⁻¹, and what the ray met first.
@@ -20,6 +22,14 @@ pub struct Sample {
     pub direct: Vec3,
     pub reflection: Vec3,
     pub refraction: Vec3,
+    /// The part of it that photons brought to the first diffuse surface.
+    pub caustic: Vec3,
+    /// The part of it that came by two diffuse surfaces or more.
+    pub indirect: Vec3,
+    /// Photons as dots.
+    pub photons: Vec3,
+    /// Photons by area, 1/m².
+    pub photon_density: f32,
     pub first: FirstHit,
 }
 

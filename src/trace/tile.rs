@@ -13,6 +13,10 @@ pub struct PixelValue {
     pub direct: DVec3,
     pub reflection: DVec3,
     pub refraction: DVec3,
+    pub caustic: DVec3,
+    pub indirect: DVec3,
+    pub photons: DVec3,
+    pub photon_density: f64,
     pub albedo: DVec3,
     pub normal: DVec3,
     pub position: DVec3,
@@ -29,6 +33,7 @@ pub struct Layers {
     pub first_hit: bool,
     pub split: bool,
     pub variance: bool,
+    pub photons: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,6 +50,15 @@ struct SplitSums {
     direct: DVec3,
     reflection: DVec3,
     refraction: DVec3,
+    caustic: DVec3,
+    indirect: DVec3,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct PhotonSums {
+    /// Of the first pass.
+    dots: DVec3,
+    density: f64,
 }
 
 /// A rectangle of pixels with its sums. Layers that are not kept take no memory.
@@ -61,6 +75,7 @@ pub struct Tile {
     first: Vec<FirstHitSums>,
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
+    photons: Vec<PhotonSums>,
 }
 
 impl Tile {
@@ -78,6 +93,7 @@ impl Tile {
             split: vec![SplitSums::default(); if_kept(layers.split)],
             first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
+            photons: vec![PhotonSums::default(); if_kept(layers.photons)],
         }
     }
 
@@ -108,6 +124,14 @@ impl Tile {
             split.direct += value.direct;
             split.reflection += value.reflection;
             split.refraction += value.refraction;
+            split.caustic += value.caustic;
+            split.indirect += value.indirect;
+        }
+        if let Some(photons) = self.photons.get_mut(i) {
+            photons.density += value.photon_density;
+            if before == 0.0 {
+                photons.dots = value.photons;
+            }
         }
         if let Some(first) = self.first.get_mut(i) {
             first.albedo += value.albedo;
@@ -128,6 +152,13 @@ pub enum Layer {
     Direct,
     Reflection,
     Refraction,
+    /// Light that photons brought.
+    Caustic,
+    Indirect,
+    /// The first pass's photons, as dots.
+    Photons,
+    /// Photons a pass by area, 1/m².
+    PhotonDensity,
     /// Of the mean over passes; needs two passes or more.
     Variance,
     Albedo,
@@ -152,6 +183,7 @@ impl Tile {
             + self.split.len() * size_of::<SplitSums>()
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
+            + self.photons.len() * size_of::<PhotonSums>()
     }
 
     /// Samples a pass of each pixel.
@@ -166,11 +198,16 @@ impl Tile {
         let passes = f64::from(self.passes[i].max(1));
         let first = || self.first.get(i).copied().unwrap_or_default();
         let split = || self.split.get(i).copied().unwrap_or_default();
+        let photons = || self.photons.get(i).copied().unwrap_or_default();
         match layer {
             Layer::Radiance => self.radiance[i] / passes,
             Layer::Direct => split().direct / passes,
             Layer::Reflection => split().reflection / passes,
             Layer::Refraction => split().refraction / passes,
+            Layer::Caustic => split().caustic / passes,
+            Layer::Indirect => split().indirect / passes,
+            Layer::Photons => photons().dots,
+            Layer::PhotonDensity => DVec3::splat(photons().density / passes),
             Layer::Variance => {
                 let squares = self.squares.get(i).copied().unwrap_or_default();
                 squares / (passes * (passes - 1.0).max(1.0))

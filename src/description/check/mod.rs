@@ -6,6 +6,7 @@ mod files;
 mod lights;
 mod materials;
 mod objects;
+mod photons;
 mod references;
 mod settings;
 mod usage;
@@ -46,6 +47,7 @@ pub(super) fn check(
         named(object, &mut checker.objects);
     }
     settings::check(&mut checker);
+    photons::check(&mut checker);
     materials::textures(&mut checker);
     materials::check(&mut checker);
     lights::check(&mut checker);

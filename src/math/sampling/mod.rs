@@ -4,8 +4,10 @@
 //! Concentric disk: Shirley & Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
 //! Triangle: Heitz, A Low-Distortion Map Between Triangle and Square, 2019.
 
+mod cells;
 mod discrete;
 
+pub use cells::SphericalCell;
 pub use discrete::{AliasTable, Cdf, Choice, pick};
 
 use glam::{DVec2, DVec3};

@@ -178,6 +178,17 @@ impl Surface for Cone {
         self.caps
     }
 
+    fn clearance(&self, p: DVec3) -> f64 {
+        let r = libm::hypot(p.x, p.z);
+        // Nothing is nearer to both than to one of them.
+        let to_caps = p.y.min(self.height - p.y);
+        if to_caps > 1e-9 * self.height {
+            return to_caps;
+        }
+        let rim = if p.y < 0.5 * self.height { self.radius } else { self.top_radius };
+        rim - r
+    }
+
     fn area(&self) -> f64 {
         self.areas().iter().sum()
     }

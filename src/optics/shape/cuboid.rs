@@ -109,6 +109,13 @@ impl Surface for Cuboid {
         true
     }
 
+    fn clearance(&self, p: DVec3) -> f64 {
+        // The smallest distance is that to the face itself.
+        let mut d = (p - self.min).min(self.max - p).to_array();
+        d.sort_by(f64::total_cmp);
+        d[1]
+    }
+
     fn area(&self) -> f64 {
         self.face_areas().iter().sum()
     }

@@ -54,6 +54,11 @@ impl Surface for Disk {
         false
     }
 
+    fn clearance(&self, p: DVec3) -> f64 {
+        let r = libm::hypot(p.x, p.z);
+        (self.radius - r).min(if self.inner_radius > 0.0 { r - self.inner_radius } else { f64::INFINITY })
+    }
+
     fn area(&self) -> f64 {
         PI * (self.radius - self.inner_radius) * (self.radius + self.inner_radius)
     }

@@ -67,6 +67,7 @@ trait Surface {
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         self.surface(ray, hit)
     }
+    fn clearance(&self, p: DVec3) -> f64;
     fn closed(&self) -> bool;
     fn area(&self) -> f64;
     fn sample_area(&self, u: [f64; 2]) -> AreaSample;
@@ -109,6 +110,11 @@ impl Shape {
     #[inline]
     pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         each!(self, s => s.bare_surface(ray, hit))
+    }
+
+    /// A lower bound on the distance from a surface point to the end of its face; 0 where nothing is known.
+    pub fn clearance(&self, p: DVec3) -> f64 {
+        each!(self, s => s.clearance(p))
     }
 
     /// Whether the surface bounds a solid.

@@ -227,6 +227,10 @@ impl Surface for Polyhedron {
         true
     }
 
+    fn clearance(&self, _: DVec3) -> f64 {
+        0.0
+    }
+
     fn area(&self) -> f64 {
         self.areas.iter().sum()
     }

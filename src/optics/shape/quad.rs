@@ -69,6 +69,10 @@ impl Surface for Quad {
         false
     }
 
+    fn clearance(&self, p: DVec3) -> f64 {
+        (self.half.x - p.x.abs()).min(self.half.y - p.z.abs())
+    }
+
     fn area(&self) -> f64 {
         4.0 * self.half.x * self.half.y
     }

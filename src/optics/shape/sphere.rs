@@ -10,13 +10,22 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 pub struct Sphere {
     radius: f64,
     center: DVec3,
+    inverse_radius: f64,
     p_error: f64,
 }
 
 impl Sphere {
     pub fn new(radius: f64, center: DVec3) -> Sphere {
         let p_error = super::p_error(center - radius, center + radius);
-        Sphere { radius, center, p_error }
+        Sphere { radius, center, inverse_radius: 1.0 / radius, p_error }
+    }
+
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    pub fn center(&self) -> DVec3 {
+        self.center
     }
 
     /// Where on its way a ray from outside is nearest to the centre; `None` if that is behind it.
@@ -72,7 +81,8 @@ impl Surface for Sphere {
 
     #[inline]
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        let n = (ray.at(hit.t) - self.center).try_normalize().unwrap_or(DVec3::Y);
+        let outwards = (ray.at(hit.t) - self.center) * self.inverse_radius;
+        let n = if outwards == DVec3::ZERO { DVec3::Y } else { robust::renormalized(outwards) };
         LocalSurface {
             p: self.center + n * self.radius,
             p_error: self.p_error,
@@ -86,6 +96,10 @@ impl Surface for Sphere {
 
     fn closed(&self) -> bool {
         true
+    }
+
+    fn clearance(&self, _: DVec3) -> f64 {
+        f64::INFINITY
     }
 
     fn area(&self) -> f64 {

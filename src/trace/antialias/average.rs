@@ -12,6 +12,10 @@ pub(super) struct Average {
     direct: DVec3,
     reflection: DVec3,
     refraction: DVec3,
+    caustic: DVec3,
+    indirect: DVec3,
+    photons: DVec3,
+    photon_density: f64,
     albedo: DVec3,
     normal: DVec3,
     position: DVec3,
@@ -35,6 +39,12 @@ impl Average {
             self.direct += scaled(sample.direct);
             self.reflection += scaled(sample.reflection);
             self.refraction += scaled(sample.refraction);
+            self.caustic += scaled(sample.caustic);
+            self.indirect += scaled(sample.indirect);
+        }
+        if self.wants.photons {
+            self.photons += scaled(sample.photons);
+            self.photon_density += f64::from(sample.photon_density) * weight;
         }
         if !self.wants.first_hit {
             return;
@@ -57,6 +67,10 @@ impl Average {
             direct: self.direct * inverse,
             reflection: self.reflection * inverse,
             refraction: self.refraction * inverse,
+            caustic: self.caustic * inverse,
+            indirect: self.indirect * inverse,
+            photons: self.photons * inverse,
+            photon_density: self.photon_density * inverse,
             albedo: self.albedo * inverse,
             normal: self.normal * inverse,
             position: self.position * inverse,

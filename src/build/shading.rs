@@ -1,7 +1,7 @@
 //! The material at a surface point: weights looked up, normal bent, sides told apart.
 
 use super::footprint::{Cone, texture_point};
-use crate::build::{Surface, World};
+use super::{Surface, World};
 use crate::math::{DVec3, Vec3};
 use crate::optics::{Material, Relief, TexturePoint, bumped_normal, perturbed_normal_from_map};
 

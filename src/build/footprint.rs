@@ -3,7 +3,7 @@
 //! Akenine-Möller, Crassin, Boksansky, Belcour, Panteleev, Wright: Improved Shader and Texture Level
 //! of Detail Using Ray Cones, JCGT 10(1), 2021.
 
-use crate::build::Surface;
+use super::Surface;
 use crate::math::{DVec2, DVec3};
 use crate::optics::TexturePoint;
 
@@ -31,16 +31,17 @@ impl Cone {
 pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> TexturePoint {
     let radius = cone.width + cone.spread * surface.t;
     let n = surface.ng;
-    let cos = wo.dot(n).abs().max(1e-4);
-    let along = (wo - n * wo.dot(n)).try_normalize();
-    let minor = along.map_or_else(|| surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO), |a| n.cross(a));
-    let major = along.unwrap_or_else(|| n.cross(minor));
-    TexturePoint {
-        uv: surface.uv,
-        duv: in_uv(surface, [major * (radius / cos), minor * radius]),
-        p: surface.local,
-        dp: radius / scale,
-    }
+    let height = wo.dot(n);
+    let along = wo - n * height;
+    let sin2 = along.length_squared();
+    let axes = if sin2 > 1e-12 {
+        let scale = radius / sin2.sqrt();
+        [along * (scale / height.abs().max(1e-4)), n.cross(along) * scale]
+    } else {
+        let minor = surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO) * radius;
+        [n.cross(minor), minor]
+    };
+    TexturePoint { uv: surface.uv, duv: in_uv(surface, axes), p: surface.local, dp: radius / scale }
 }
 
 /// The (u, v) steps of steps on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.

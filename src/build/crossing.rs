@@ -1,0 +1,92 @@
+//! What a path does at a mirror or an interface, from the eye as from a light: the medium behind it,
+//! and the directions in which it may go on.
+
+use super::media::MediaSet;
+use super::shading::Shading;
+use super::surface::Surface;
+use super::world::World;
+use crate::math::{DVec3, Health, Rare, Vec3};
+use crate::optics::{Interface, reflected, refracted};
+
+/// The way through a transmissive surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// The media behind it.
+    pub after: MediaSet,
+    /// Offset along the normal that clears all surfaces which coincide with it, metres.
+    pub tolerance: f64,
+}
+
+impl World {
+    /// The way of the unit direction `dir` through a surface. `None` where nothing is transmitted.
+    #[inline]
+    pub fn crossing(
+        &self,
+        media: &MediaSet,
+        dir: DVec3,
+        surface: &Surface,
+        shading: &Shading,
+        health: &mut Health,
+    ) -> Option<Crossing> {
+        let rank = self.instances[surface.instance as usize].rank;
+        if rank == 0 || shading.kt == Vec3::ZERO {
+            return None;
+        }
+        let mut cross = |media: MediaSet, rank, inwards| {
+            media.crossed(rank, inwards).unwrap_or_else(|| {
+                health.count(Rare::MediaOverflow);
+                media
+            })
+        };
+        let mut after = cross(*media, rank, dir.dot(surface.ng) < 0.0);
+        if self.coincidence == 0.0 {
+            return Some(Crossing { after, tolerance: surface.p_error });
+        }
+        let tolerance = 2.0 * self.coincidence.max(surface.p_error);
+        self.coincident(surface.p, surface.ng, dir, surface.instance, tolerance, |rank, inwards| {
+            after = cross(after, rank, inwards);
+        });
+        Some(Crossing { after, tolerance: 2.0 * tolerance })
+    }
+
+    /// Beer–Lambert over `t` metres of the medium.
+    #[inline]
+    pub fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
+        let (_, absorption) = self.medium(media);
+        if absorption == Vec3::ZERO {
+            return Vec3::ONE;
+        }
+        Vec3::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
+    }
+}
+
+impl Shading<'_> {
+    /// The mirrored direction, on the side of wo: one that a bent shading normal has sent below the
+    /// surface is mirrored back up.
+    pub fn mirrored(&self, health: &mut Health) -> DVec3 {
+        let wi = reflected(self.wo, self.ns);
+        let height = wi.dot(self.ng);
+        if height > 0.0 {
+            return wi;
+        }
+        health.count(Rare::DirectionThroughSurface);
+        (wi - self.ng * (2.0 * height)).normalize()
+    }
+
+    /// Reflectance towards and refraction into a medium of `eta` times the index.
+    pub fn interface(&self, eta: f64) -> Interface {
+        Interface::new(self.wo.dot(self.ns).max(0.0), eta)
+    }
+
+    /// The refracted direction, on the other side: one that a bent shading normal keeps on the side of wo
+    /// is refracted by the geometric normal instead. `None` where that reflects totally.
+    pub fn refracted(&self, eta: f64, interface: &Interface, health: &mut Health) -> Option<DVec3> {
+        let wi = refracted(self.wo, self.ns, eta, interface.cos_t);
+        if wi.dot(self.ng) < 0.0 {
+            return Some(wi);
+        }
+        health.count(Rare::DirectionThroughSurface);
+        let flat = Interface::new(self.wo.dot(self.ng).max(0.0), eta);
+        (flat.reflectance < 1.0).then(|| refracted(self.wo, self.ng, eta, flat.cos_t))
+    }
+}

@@ -1,0 +1,186 @@
+//! The photon map and its construction.
+
+use super::boxes::{Bounds, Boxes};
+use super::lanes::Array;
+use super::photon::{NO_DIRECTION, Packed};
+use crate::math::Vec3;
+use crate::scatter::Photon;
+use kiddo::kd_tree::KdTreeAccessor;
+use kiddo::{Eytzinger, FlatVec, KdTree, LeafStrategy};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Photons of one leaf.
+pub const LEAF: usize = 8 * HALVES;
+pub const HALVES: usize = 2;
+/// Most photons of a leaf of `kiddo`'s. It makes a power of two of them, so that they are half full at
+/// worst; leaves of [`LEAF`] made from such buckets are all full but the last.
+const BUCKET: usize = 512;
+/// Fewer photons than this are divided by one thread; how many never changes the tree.
+const WORTH_A_THREAD: usize = 1 << 14;
+
+/// Watts: more could not be stored, nor come from a lamp.
+const MOST_POWER: f32 = 1e38;
+
+type Tree = KdTree<f32, u32, Eytzinger, FlatVec<f32, u32, 3, BUCKET>, 3, BUCKET>;
+
+/// Positions of a leaf's photons, metres, by axis. Places without a photon hold NaN, which is within
+/// no distance of anything.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Positions {
+    pub x: [Array; HALVES],
+    pub y: [Array; HALVES],
+    pub z: [Array; HALVES],
+}
+
+impl Positions {
+    const NONE: Positions =
+        Positions { x: [[f32::NAN; 8]; HALVES], y: [[f32::NAN; 8]; HALVES], z: [[f32::NAN; 8]; HALVES] };
+
+    fn of(indices: &[u32], photons: &[Photon]) -> Positions {
+        let mut all = Positions::NONE;
+        for (place, &index) in indices.iter().enumerate() {
+            let (half, lane) = (place / 8, place % 8);
+            [all.x[half][lane], all.y[half][lane], all.z[half][lane]] =
+                photons[index as usize].position.to_array();
+        }
+        all
+    }
+
+    fn bounds(&self, count: usize) -> Bounds {
+        (0..count).fold(Bounds::EMPTY, |bounds, place| bounds.with(self.at(place)))
+    }
+
+    #[inline(always)]
+    pub fn at(&self, place: usize) -> Vec3 {
+        let (half, lane) = (place / 8, place % 8);
+        Vec3::new(self.x[half][lane], self.y[half][lane], self.z[half][lane])
+    }
+}
+
+/// Photons, ready to be gathered.
+#[derive(Clone, Debug, Default)]
+pub struct PhotonMap {
+    pub(super) boxes: Boxes,
+    pub(super) positions: Vec<Positions>,
+    /// The rest of the photon in place i of leaf l is at l · LEAF + i.
+    pub(super) packed: Vec<Packed>,
+    /// The code of the normal that all photons of a leaf have, or [`NO_DIRECTION`].
+    pub(super) normals: Vec<u32>,
+    count: usize,
+    refused: usize,
+}
+
+impl PhotonMap {
+    /// The map of these photons. Those with a value that is not finite, or with power outside 0 to
+    /// 1e38 W, are left out and counted. The same photons in the same order make the same map, whatever the
+    /// number of threads.
+    pub fn new(mut photons: Vec<Photon>) -> PhotonMap {
+        let all = photons.len();
+        photons.retain(is_sound);
+        let (order, leaves) = partition(&photons);
+        let of_leaf = |leaf: &Range<usize>| &order[leaf.clone()];
+        let positions: Vec<Positions> =
+            leaves.par_iter().map(|leaf| Positions::of(of_leaf(leaf), &photons)).collect();
+        let mut packed = vec![Packed::default(); leaves.len() * LEAF];
+        packed.par_chunks_mut(LEAF).zip(&leaves).for_each(|(packed, leaf)| {
+            for (packed, &index) in packed.iter_mut().zip(of_leaf(leaf)) {
+                *packed = Packed::new(&photons[index as usize], index as usize);
+            }
+        });
+        let normals =
+            packed.chunks(LEAF).zip(&leaves).map(|(packed, leaf)| common_normal(&packed[..leaf.len()]));
+        PhotonMap {
+            normals: normals.collect(),
+            boxes: Boxes::new(leaves.iter().zip(&positions).map(|(leaf, p)| p.bounds(leaf.len())).collect()),
+            positions,
+            packed,
+            count: photons.len(),
+            refused: all - photons.len(),
+        }
+    }
+
+    /// Photons in the map.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Photons that were left out because they are not finite.
+    pub fn refused(&self) -> usize {
+        self.refused
+    }
+
+    /// All that the map holds: under 32 bytes a photon, from some hundreds of photons on.
+    pub fn memory_bytes(&self) -> usize {
+        self.boxes.memory_bytes()
+            + self.positions.capacity() * size_of::<Positions>()
+            + self.packed.capacity() * size_of::<Packed>()
+            + self.normals.capacity() * size_of::<u32>()
+    }
+}
+
+fn is_sound(photon: &Photon) -> bool {
+    let Photon { position, wi, normal, power } = photon;
+    [position, wi, normal, power].into_iter().all(|v| v.is_finite())
+        && power.cmpge(Vec3::ZERO).all()
+        && power.max_element() <= MOST_POWER
+}
+
+fn common_normal(packed: &[Packed]) -> u32 {
+    let first = packed[0].normal;
+    if packed.iter().all(|p| p.normal == first) { first } else { NO_DIRECTION }
+}
+
+/// A rotation (times 3/8) whose axes are far from the scene's: a tree that divides along its own
+/// axes in turn would waste one level in three on a floor.
+fn turned(p: Vec3) -> [f32; 3] {
+    let p = p / 8.0;
+    [2.0 * p.x - p.y + 2.0 * p.z, 2.0 * p.x + 2.0 * p.y - p.z, 2.0 * p.y + 2.0 * p.z - p.x]
+}
+
+/// Photons in the order of a kd-tree's leaves, and each leaf's range of them: 1 to [`LEAF`].
+fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<Range<usize>>) {
+    if photons.is_empty() {
+        return (Vec::new(), Vec::new());
+    }
+    let points: Vec<[f32; 3]> = photons.par_iter().map(|photon| turned(photon.position)).collect();
+    let tree: Tree = Tree::builder()
+        .with_parallel_construction_threshold(WORTH_A_THREAD)
+        .build_from_slice(&points)
+        .expect("coordinates are finite, and photons fewer than 2^32");
+    let mut order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
+    let (mut leaves, mut buckets) = (Vec::new(), Vec::new());
+    let (mut start, mut rest) = (0, &mut order[..]);
+    for bucket in 0..tree.leaf_count() {
+        let len = LeafStrategy::<f32, u32, Eytzinger, 3, BUCKET>::leaf_len(tree.leaves(), bucket);
+        let (first, others) = rest.split_at_mut(len);
+        buckets.push(first);
+        rest = others;
+        leaves.extend((0..len).step_by(LEAF).map(|at| start + at..start + len.min(at + LEAF)));
+        start += len;
+    }
+    buckets.into_par_iter().for_each(|bucket| divide(bucket, photons));
+    (order, leaves)
+}
+
+/// Orders photons so that each [`LEAF`] of them in turn lie together, by planes across the longest
+/// side of their box, which leave whole leaves on the lower side.
+fn divide(indices: &mut [u32], photons: &[Photon]) {
+    if indices.len() <= LEAF {
+        return;
+    }
+    let position = |index: u32| photons[index as usize].position;
+    let box_of_all = indices.iter().fold(Bounds::EMPTY, |bounds, &index| bounds.with(position(index)));
+    let axis = (box_of_all.hi - box_of_all.lo).max_position();
+    let lower = indices.len().div_ceil(2 * LEAF) * LEAF;
+    let key = |index: u32| position(index)[axis];
+    indices.select_nth_unstable_by(lower, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+    let (lower, upper) = indices.split_at_mut(lower);
+    divide(lower, photons);
+    divide(upper, photons);
+}

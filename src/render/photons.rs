@@ -1,0 +1,167 @@
+//! The photon stages of every pass: scatter, then index, ready to be gathered.
+
+use crate::build::World;
+use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
+use crate::plan::{self, PhotonBudget, PhotonEngine, Plan};
+use crate::scatter::{Emission, Ledger, Scattered};
+use serde::Serialize;
+
+/// Photons of the pilot from which the first radius comes.
+const PILOT: (u32, u32) = (10_000, 100_000);
+
+/// A pass that no render comes to: the pilot's photons are no pass's photons.
+const PILOT_PASS: u32 = u32::MAX;
+
+/// The largest radius as a share of the size of what focuses light.
+const MAX_RADIUS: f64 = 0.25;
+
+/// All that the passes' photons have in common.
+pub struct PhotonStage {
+    emission: Emission,
+    budget: PhotonBudget,
+    reach: Rule,
+    kernel: Kernel,
+    max_radius: f32,
+}
+
+enum Rule {
+    Shrinking { first: Bandwidth, alpha: f64 },
+    Nearest { k: usize },
+}
+
+/// One pass's photons.
+pub struct PassPhotons {
+    map: PhotonMap,
+    factor: f32,
+    emitted: u64,
+    ledger: Ledger,
+}
+
+impl PhotonStage {
+    /// `None` where the plan has no caustics, or no light reaches a mirror or an interface.
+    pub fn new(world: &World, plan: &Plan) -> Option<PhotonStage> {
+        let budget = plan.photons?;
+        let emission = Emission::new(world, plan)?;
+        let max_radius = budget.max_radius.unwrap_or(MAX_RADIUS * emission.caster_radius()) as f32;
+        let reach = match budget.engine {
+            PhotonEngine::Classic { k } => Rule::Nearest { k: k as usize },
+            PhotonEngine::Progressive { alpha, k } => {
+                let count = budget.count.clamp(PILOT.0, PILOT.1);
+                let pilot = emission.scatter(world, PILOT_PASS, count.into());
+                let stored = pilot.photons.len() as f64 * f64::from(budget.count) / f64::from(count);
+                let first = Bandwidth::new(pilot.photons, stored, f64::from(k), 0.0, max_radius);
+                Rule::Shrinking { first, alpha }
+            }
+        };
+        let kernel = match budget.kernel {
+            plan::Kernel::Disc => Kernel::Disc,
+            plan::Kernel::Cone => Kernel::Cone { kappa: 1.1 },
+            plan::Kernel::Epanechnikov => Kernel::Epanechnikov,
+        };
+        Some(PhotonStage { emission, budget, reach, kernel, max_radius })
+    }
+
+    /// Whether all passes gather the same photons.
+    pub fn one_map(&self) -> bool {
+        matches!(self.reach, Rule::Nearest { .. })
+    }
+
+    /// The photons of a pass; where one map serves all, those of the first.
+    pub fn pass(&self, world: &World, pass: u32) -> PassPhotons {
+        let pass = if self.one_map() { 0 } else { pass };
+        let Scattered { photons, ledger, emitted, .. } =
+            self.emission.scatter(world, pass, self.budget.count.into());
+        let factor = match self.reach {
+            Rule::Shrinking { alpha, .. } => shrink(pass, alpha) as f32,
+            Rule::Nearest { .. } => 1.0,
+        };
+        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger }
+    }
+
+    pub fn caustics<'a>(&'a self, photons: &'a PassPhotons) -> Caustics<'a> {
+        let reach = match &self.reach {
+            Rule::Shrinking { first, .. } => Reach::Shrinking { first, factor: photons.factor },
+            Rule::Nearest { k } => Reach::Nearest { k: *k, max: self.max_radius },
+        };
+        Caustics { map: &photons.map, kernel: self.kernel, reach }
+    }
+}
+
+/// What the photons of all passes came to.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct PhotonStats {
+    pub maps: u32,
+    pub emitted: u64,
+    pub stored: u64,
+    /// Photons with a number in them that is not finite: left out.
+    pub refused: u64,
+    /// Watts a map, channels added, by what became of them.
+    pub watts: Watts,
+    pub lights: Vec<LightPhotons>,
+    /// The largest gather radius, metres.
+    pub max_radius: f32,
+    /// The last pass's radius over the first's.
+    pub radius_factor: f32,
+    /// Of the largest map and the pilot's.
+    pub map_bytes: usize,
+}
+
+/// The ledger of a map.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Watts {
+    pub emitted: f64,
+    pub stored: f64,
+    pub absorbed: f64,
+    pub escaped: f64,
+    pub cut_off: f64,
+}
+
+/// One light's part.
+#[derive(Clone, Debug, Serialize)]
+pub struct LightPhotons {
+    pub name: String,
+    /// Of the photons sent out.
+    pub share: f64,
+    /// The part of the power sent towards what focuses it that arrives as a caustic.
+    #[serde(rename = "yield")]
+    pub yields: f64,
+}
+
+impl PhotonStats {
+    pub(super) fn new(stage: &PhotonStage, world: &World) -> PhotonStats {
+        let lights = world.emitters.iter().zip(stage.emission.lights());
+        PhotonStats {
+            lights: lights
+                .map(|(emitter, share)| LightPhotons {
+                    name: emitter.name.clone(),
+                    share: share.share,
+                    yields: share.yield_share,
+                })
+                .collect(),
+            max_radius: stage.max_radius,
+            ..PhotonStats::default()
+        }
+    }
+
+    pub(super) fn add(&mut self, stage: &PhotonStage, photons: &PassPhotons) {
+        self.maps += 1;
+        self.emitted += photons.emitted;
+        self.stored += photons.map.len() as u64;
+        self.refused += photons.map.refused() as u64;
+        self.radius_factor = photons.factor;
+        let pilot = match &stage.reach {
+            Rule::Shrinking { first, .. } => first.memory_bytes(),
+            Rule::Nearest { .. } => 0,
+        };
+        self.map_bytes = self.map_bytes.max(photons.map.memory_bytes() + pilot);
+        let ledger = &photons.ledger;
+        let n = f64::from(self.maps);
+        let mean = |before: f64, now: f64| before + (now - before) / n;
+        let w = &mut self.watts;
+        w.emitted = mean(w.emitted, ledger.emitted.element_sum());
+        w.stored = mean(w.stored, ledger.stored.element_sum());
+        w.absorbed = mean(w.absorbed, ledger.absorbed.element_sum());
+        w.escaped = mean(w.escaped, ledger.escaped.element_sum());
+        w.cut_off = mean(w.cut_off, ledger.cut.element_sum());
+    }
+}

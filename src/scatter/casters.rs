@@ -1,0 +1,81 @@
+//! Casters: what makes caustics, as the bounds that photons are aimed at.
+
+use super::bounds::Bound;
+use crate::build::{Geometry, Instance, World};
+use crate::math::Vec3;
+use crate::optics::Shape;
+
+/// Bounds that aiming tells apart; more casters than this are merged by nearness.
+const MOST: usize = 32;
+
+/// Bounds of all mirrors and interfaces, merged to a few.
+///
+/// What transmits counts where it has been given a rank as a medium: an object of the same index of
+/// refraction as all around it, which light does not notice, has none.
+pub(super) fn casters(world: &World) -> Vec<Bound> {
+    let specular = |instance: &Instance| {
+        instance.rank != 0
+            || world.bindings[instance.binding as usize]
+                .iter()
+                .any(|id| world.materials[id.0 as usize].reflection.bound(&world.textures) != Vec3::ZERO)
+    };
+    let bounds = world
+        .instances
+        .iter()
+        .filter(|instance| instance.visible && specular(instance))
+        .filter_map(|instance| of_instance(world, instance))
+        .collect();
+    merged(bounds)
+}
+
+/// Bounds of all that rays can meet; `None` for an empty scene.
+pub(super) fn scene(world: &World) -> Option<Bound> {
+    let all = world.tree.bounds();
+    (!all.is_empty()).then(|| Bound::of_aabb(&all))
+}
+
+/// `None` for a geometry of nothing.
+pub(super) fn of_instance(world: &World, instance: &Instance) -> Option<Bound> {
+    let geometry = &world.geometries[instance.geometry as usize];
+    let aabb = World::placed_bounds(geometry, &instance.placement);
+    if aabb.is_empty() {
+        return None;
+    }
+    let bound = Bound::of_aabb(&aabb);
+    let Geometry::Shape(Shape::Sphere(sphere)) = geometry else { return Some(bound) };
+    // An ellipsoid lies within the ball of its longest half-axis, which this bounds.
+    let m = instance.placement.world_from_object.matrix3;
+    let round = m.x_axis.length() == m.y_axis.length()
+        && m.y_axis.length() == m.z_axis.length()
+        && m.x_axis.dot(m.y_axis).abs() + m.y_axis.dot(m.z_axis).abs() + m.z_axis.dot(m.x_axis).abs()
+            <= 1e-12 * m.x_axis.length_squared();
+    let stretch = if round { m.x_axis.length() * (1.0 + 1e-12) } else { instance.placement.stretch() };
+    Some(bound.with_ball(instance.placement.point(sphere.center()), sphere.radius() * stretch))
+}
+
+/// At most `MOST` bounds of the same things, neighbours together.
+fn merged(bounds: Vec<Bound>) -> Vec<Bound> {
+    let mut groups = vec![bounds];
+    while groups.len() < MOST {
+        // The group whose bounds are spread the widest.
+        let spread = |group: &[Bound]| if group.len() < 2 { 0.0 } else { spread(group).1 };
+        let widest = (0..groups.len()).max_by(|&a, &b| spread(&groups[a]).total_cmp(&spread(&groups[b])));
+        let Some(i) = widest.filter(|&i| spread(&groups[i]) > 0.0) else { break };
+        let mut group = std::mem::take(&mut groups[i]);
+        let (axis, _) = self::spread(&group);
+        group.sort_by(|a, b| a.center[axis].total_cmp(&b.center[axis]));
+        let upper = group.split_off(group.len() / 2);
+        groups[i] = group;
+        groups.push(upper);
+    }
+    groups.iter().filter_map(|group| group.iter().copied().reduce(|a, b| a.union(&b))).collect()
+}
+
+/// The axis along which the centres are furthest apart, and how far.
+fn spread(group: &[Bound]) -> (usize, f64) {
+    let least = group.iter().fold(group[0].center, |m, b| m.min(b.center));
+    let most = group.iter().fold(group[0].center, |m, b| m.max(b.center));
+    let extent = most - least;
+    let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
+    (axis, extent[axis])
+}

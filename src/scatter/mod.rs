@@ -1,0 +1,258 @@
+//! Photon scatter: emitters → photon paths → photons, the first stage of every pass.
+//!
+//! A photon is stored where light from an emitter meets a non-specular surface after one mirror or
+//! interface at least (L S⁺ D), and nowhere else: what reaches a surface directly is direct light.
+//!
+//! An emission is planned once for a render: each light is divided into cells, those that cannot reach
+//! a mirror or an interface are left out, and a pilot shares the photons among the rest. A pass then
+//! takes its own stretch of each cell's well-distributed sequence, so that any pass can be computed
+//! alone, every pass is right in the mean, and the passes together are spread as evenly as one.
+
+mod bounds;
+mod casters;
+mod distant;
+mod ledger;
+mod path;
+mod photon;
+mod pilot;
+mod projection;
+mod source;
+mod surfaces;
+
+use crate::build::World;
+use crate::math::Health;
+use crate::math::random::{Sequence, Stage, combine, mix, unit};
+use crate::plan::Plan;
+use bounds::Bound;
+pub use ledger::Ledger;
+use path::{Sink, Walk};
+pub use photon::Photon;
+use rayon::prelude::*;
+use source::{Domain, Source, Start};
+use std::ops::Range;
+
+/// Which light becomes photons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Store {
+    /// L S⁺ D.
+    Caustics,
+    /// L D: what shadow rays find as well, to compare the two.
+    Direct,
+}
+
+/// Where photons are sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// Where they can reach a mirror or an interface.
+    Casters,
+    /// Where they can reach anything.
+    Scene,
+}
+
+/// What photons are sent from where, for all passes of a render.
+#[derive(Clone, Debug)]
+pub struct Emission {
+    seed: u64,
+    max_depth: u32,
+    store: Store,
+    sources: Vec<Source>,
+    targets: Vec<Bound>,
+    cells: Vec<Cell>,
+    found: Vec<pilot::Found>,
+    emitters: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Cell {
+    source: u32,
+    domain: Domain,
+    /// Of all photons.
+    share: f64,
+}
+
+/// The photons of one pass.
+#[derive(Clone, Debug, Default)]
+pub struct Scattered {
+    pub photons: Vec<Photon>,
+    pub ledger: Ledger,
+    /// Samples taken; some of them found nothing to emit.
+    pub emitted: u64,
+    /// By emitter of the world.
+    pub by_light: Vec<Ledger>,
+    pub health: Health,
+}
+
+/// What the pilot says of an emitter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightShare {
+    pub cells: usize,
+    /// Watts into the cells, all channels together.
+    pub flux: f64,
+    /// The part of it that arrives as photons; a path may store several.
+    pub yield_share: f64,
+    /// Of all photons.
+    pub share: f64,
+}
+
+/// Cells of all lights together, and of each at the least and at the most.
+const CELLS: usize = 8192;
+const CELLS_OF_A_LIGHT: [usize; 2] = [48, 2048];
+
+/// Photons that are followed one after the other.
+const CHUNK: u64 = 1024;
+
+impl Emission {
+    /// For caustics. `None` where no light reaches a mirror or an interface.
+    pub fn new(world: &World, plan: &Plan) -> Option<Emission> {
+        Emission::of(world, plan, Store::Caustics, Aim::Casters)
+    }
+
+    pub fn of(world: &World, plan: &Plan, store: Store, aim: Aim) -> Option<Emission> {
+        let scene = casters::scene(world)?;
+        let targets = match aim {
+            Aim::Casters => casters::casters(world),
+            Aim::Scene => vec![scene],
+        };
+        let sources = Source::all(world, &scene);
+        let [least, most] = CELLS_OF_A_LIGHT;
+        let most = (CELLS / sources.len().max(1)).clamp(least, most);
+        let cells: Vec<Cell> = (0u32..)
+            .zip(&sources)
+            .flat_map(|(i, source)| {
+                let domains = projection::domains(world, source, &targets, most);
+                domains.into_iter().map(move |domain| Cell { source: i, domain, share: 0.0 })
+            })
+            .collect();
+        let mut emission = Emission {
+            seed: plan.seed,
+            max_depth: plan.max_depth,
+            store,
+            sources,
+            targets,
+            cells,
+            found: Vec::new(),
+            emitters: world.emitters.len(),
+        };
+        emission.found = pilot::explore(&emission, world);
+        let of: Vec<u32> = emission.cells.iter().map(|c| c.source).collect();
+        let shares = pilot::shares(&emission.found, &of)?;
+        emission.cells.iter_mut().zip(shares).for_each(|(cell, share)| cell.share = share);
+        Some(emission)
+    }
+
+    /// The radius, metres, of the middling one of what focuses light; casters that are many count in groups.
+    pub fn caster_radius(&self) -> f64 {
+        let mut radii: Vec<f64> = self.targets.iter().map(|target| target.radius).collect();
+        radii.sort_by(f64::total_cmp);
+        radii.get(radii.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// By emitter of the world, what the pilot found and decided.
+    pub fn lights(&self) -> Vec<LightShare> {
+        let mut lights = vec![LightShare::default(); self.emitters];
+        for (cell, found) in self.cells.iter().zip(&self.found) {
+            let light = &mut lights[self.sources[cell.source as usize].emitter as usize];
+            light.cells += 1;
+            light.flux += found.flux;
+            light.yield_share += found.arrived;
+            light.share += cell.share;
+        }
+        for light in &mut lights {
+            light.yield_share /= if light.flux > 0.0 { light.flux } else { 1.0 };
+        }
+        lights
+    }
+
+    /// The photons of pass `pass`, of about `count` samples: exactly so many in the mean over passes.
+    pub fn scatter(&self, world: &World, pass: u32, count: u64) -> Scattered {
+        let runs: Vec<Range<u64>> =
+            (0..self.cells.len()).map(|cell| self.run(cell, pass, count as f64)).collect();
+        let mut before = 0;
+        let starts: Vec<u64> = runs
+            .iter()
+            .map(|run| {
+                let start = before;
+                before += run.end - run.start;
+                start
+            })
+            .collect();
+        let emitted = before;
+        let walk = self.walk(world);
+        let chunks: Vec<u64> = (0..emitted.div_ceil(CHUNK)).collect();
+        let sinks: Vec<(Sink, Vec<(u32, Ledger)>)> = chunks
+            .par_iter()
+            .map(|&chunk| {
+                let of = chunk * CHUNK..((chunk + 1) * CHUNK).min(emitted);
+                self.chunk(&walk, &runs, &starts, of, count as f64)
+            })
+            .collect();
+        let mut all =
+            Scattered { emitted, by_light: vec![Ledger::default(); self.emitters], ..Default::default() };
+        all.photons.reserve_exact(sinks.iter().map(|(sink, _)| sink.photons.len()).sum());
+        for (sink, ledgers) in &sinks {
+            all.photons.extend_from_slice(&sink.photons);
+            all.health.add(&sink.health);
+            ledgers.iter().for_each(|(light, ledger)| all.by_light[*light as usize].add(ledger));
+        }
+        all.by_light.iter().for_each(|ledger| all.ledger.add(ledger));
+        all
+    }
+
+    /// The stretch of a cell's sequence that belongs to a pass. The stretches of successive passes
+    /// follow each other without a gap, and are of the expected length in the mean over the offset.
+    fn run(&self, cell: usize, pass: u32, count: f64) -> Range<u64> {
+        let expected = count * self.cells[cell].share;
+        let key = combine(combine(mix(self.seed), Stage::Photons as u64), cell as u64);
+        let offset = unit(combine(key, OFFSET));
+        let end = |passes: f64| (passes * expected + offset) as u64;
+        end(f64::from(pass))..end(f64::from(pass) + 1.0)
+    }
+
+    /// Photons `of` a pass, counted over all cells.
+    fn chunk(
+        &self,
+        walk: &Walk,
+        runs: &[Range<u64>],
+        starts: &[u64],
+        of: Range<u64>,
+        count: f64,
+    ) -> (Sink, Vec<(u32, Ledger)>) {
+        let mut sink = Sink { photons: Vec::with_capacity((of.end - of.start) as usize), ..Sink::default() };
+        let mut ledgers = Vec::new();
+        // The last of the cells that begin here: those before it are empty.
+        let mut cell = starts.partition_point(|&start| start <= of.start) - 1;
+        let mut i = of.start;
+        while i < of.end {
+            let end = (starts[cell] + runs[cell].end - runs[cell].start).min(of.end);
+            let weight = 1.0 / (count * self.cells[cell].share);
+            for index in runs[cell].start + (i - starts[cell])..runs[cell].start + (end - starts[cell]) {
+                let sequence = Sequence::new(self.seed, Stage::Photons, cell as u64, index as u32);
+                if let Some(start) = self.start(walk.world, cell, sequence) {
+                    walk.follow(Start { power: start.power * weight, ..start }, sequence, &mut sink);
+                }
+            }
+            i = end;
+            let light = |cell: usize| self.sources[self.cells[cell].source as usize].emitter;
+            let (here, next) = (light(cell), self.cells.get(cell + 1).map(|_| light(cell + 1)));
+            if i == of.end || next != Some(here) {
+                ledgers.push((here, std::mem::take(&mut sink.ledger)));
+            }
+            cell += 1;
+        }
+        (sink, ledgers)
+    }
+
+    fn start(&self, world: &World, cell: usize, sequence: Sequence) -> Option<Start> {
+        let Cell { source, domain, .. } = &self.cells[cell];
+        let u = [sequence.dimension(WHERE[0]).pair(), sequence.dimension(WHERE[1]).pair()];
+        self.sources[*source as usize].sample(world, &self.targets, domain, u)
+    }
+
+    fn walk<'a>(&'a self, world: &'a World) -> Walk<'a> {
+        Walk { world, store: self.store, max_depth: self.max_depth }
+    }
+}
+
+/// Dimensions of a photon's values: where it starts; a path's own follow.
+const WHERE: [u64; 2] = [0, 1];
+const OFFSET: u64 = u64::MAX;

@@ -1,0 +1,192 @@
+//! Sources: where photons start, one or two for each emitter, and the domains that their emission is
+//! divided into. A sample of a domain estimates, in the mean over [0, 1)⁴, the power that the source
+//! sends through it.
+
+use super::bounds::Bound;
+use super::casters;
+use crate::build::{Geometry, MediaSet, World};
+use crate::math::sampling::SphericalCell;
+use crate::math::{DVec2, DVec3, Frame, Ray};
+use crate::optics::{EmitterKind, Shape, spot_falloff};
+
+/// What emits, with what does not change from photon to photon.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    /// Index into the world's emitters.
+    pub emitter: u32,
+    pub kind: Kind,
+    /// Around all points from which it emits; for light from afar around the whole scene.
+    pub bound: Bound,
+    /// The media in which photons start, where they are the same everywhere.
+    pub media: Option<MediaSet>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Kind {
+    /// Intensity in W/sr.
+    Point {
+        position: DVec3,
+        intensity: DVec3,
+        falloff: Option<[f64; 3]>,
+    },
+    Spot {
+        position: DVec3,
+        axis: DVec3,
+        cos_inner: f64,
+        cos_outer: f64,
+        intensity: DVec3,
+    },
+    /// A placed sphere, outwards or inwards.
+    Ball {
+        instance: u32,
+        outwards: bool,
+    },
+    /// Any other placed shape.
+    Shape {
+        instance: u32,
+    },
+    /// The emitting triangles of a mesh, which the emitter lists.
+    Mesh {
+        instance: u32,
+    },
+    /// `frame.n` points to the light.
+    Parallel {
+        frame: Frame,
+        irradiance: DVec3,
+    },
+    Sky,
+}
+
+/// A part of what a source emits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Domain {
+    /// All its light in these directions.
+    Directions(SphericalCell),
+    /// Parallel light through a rectangle perpendicular to it.
+    Rectangle { min: DVec2, max: DVec2 },
+    /// Light from the sky that meets a target's ball, from a part of the square of the sky's own sampling.
+    Sky { target: u32, corner: [f64; 2], side: f64 },
+}
+
+/// A photon about to leave.
+pub(super) struct Start {
+    pub ray: Ray,
+    /// Watts, were this the only sample of its domain.
+    pub power: DVec3,
+    pub media: MediaSet,
+    /// Where the emitter itself, unseen by rays, stops the light.
+    pub t_max: f64,
+    /// The classic attenuation, in place of the inverse square of the distance.
+    pub falloff: Option<[f64; 3]>,
+}
+
+impl Source {
+    /// The sources of all emitters, in order; `scene` bounds all that rays can meet.
+    pub fn all(world: &World, scene: &Bound) -> Vec<Source> {
+        let media: Vec<Bound> = world
+            .media
+            .iter()
+            .filter_map(|m| casters::of_instance(world, &world.instances[m.instance as usize]))
+            .collect();
+        let outside = |bound: &Bound| (!media.iter().any(|m| m.overlaps(bound))).then(MediaSet::default);
+        let mut sources = Vec::new();
+        for (emitter, described) in (0u32..).zip(&world.emitters) {
+            for kind in Kind::of(world, &described.kind) {
+                let (bound, media) = match &kind {
+                    Kind::Point { position, .. } | Kind::Spot { position, .. } => {
+                        (Bound::of_point(*position), Some(world.media_at(*position)))
+                    }
+                    Kind::Ball { instance, .. } | Kind::Shape { instance } | Kind::Mesh { instance } => {
+                        let instance = &world.instances[*instance as usize];
+                        let Some(bound) = casters::of_instance(world, instance) else { continue };
+                        (bound, outside(&bound))
+                    }
+                    Kind::Parallel { .. } | Kind::Sky => (*scene, Some(MediaSet::default())),
+                };
+                sources.push(Source { emitter, kind, bound, media });
+            }
+        }
+        sources
+    }
+
+    /// A sample of a domain; `None` where nothing is emitted. `u`: two pairs of [0, 1).
+    #[inline]
+    pub fn sample(
+        &self,
+        world: &World,
+        targets: &[Bound],
+        domain: &Domain,
+        u: [[f64; 2]; 2],
+    ) -> Option<Start> {
+        match domain {
+            Domain::Directions(cell) => {
+                let dir = cell.sample(u[0]);
+                self.towards(world, dir, cell.solid_angle(), u[1])
+            }
+            Domain::Rectangle { min, max } => self.through(*min, *max, u[0]),
+            Domain::Sky { target, corner, side } => {
+                let square = [corner[0] + side * u[0][0], corner[1] + side * u[0][1]];
+                self.from_sky(world, targets, *target as usize, square, side * side, u[1])
+            }
+        }
+    }
+
+    fn towards(&self, world: &World, dir: DVec3, solid_angle: f64, u: [f64; 2]) -> Option<Start> {
+        match &self.kind {
+            Kind::Point { position, intensity, falloff } => {
+                let power = *intensity * solid_angle;
+                Some(Start { falloff: *falloff, ..self.start(world, Ray { origin: *position, dir }, power) })
+            }
+            Kind::Spot { position, axis, cos_inner, cos_outer, intensity } => {
+                let share = spot_falloff(dir.dot(*axis), *cos_inner, *cos_outer);
+                let power = *intensity * (share * solid_angle);
+                (share > 0.0).then(|| self.start(world, Ray { origin: *position, dir }, power))
+            }
+            Kind::Ball { instance, outwards } => {
+                self.from_ball(world, *instance, *outwards, dir, solid_angle, u)
+            }
+            Kind::Shape { instance } => self.from_shape(world, *instance, dir, solid_angle, u),
+            Kind::Mesh { instance } => self.from_mesh(world, *instance, dir, solid_angle, u),
+            Kind::Parallel { .. } | Kind::Sky => None,
+        }
+    }
+
+    pub(super) fn start(&self, world: &World, ray: Ray, power: DVec3) -> Start {
+        let media = self.media.unwrap_or_else(|| world.media_at(ray.origin));
+        Start { ray, power, media, t_max: f64::INFINITY, falloff: None }
+    }
+}
+
+impl Kind {
+    fn of(world: &World, emitter: &EmitterKind) -> Vec<Kind> {
+        match emitter {
+            EmitterKind::Point { position, intensity, falloff } => {
+                vec![Kind::Point { position: *position, intensity: intensity.as_dvec3(), falloff: *falloff }]
+            }
+            EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => vec![Kind::Spot {
+                position: *position,
+                axis: *axis,
+                cos_inner: *cos_inner,
+                cos_outer: *cos_outer,
+                intensity: intensity.as_dvec3(),
+            }],
+            EmitterKind::Directional { to_light, irradiance } => {
+                vec![Kind::Parallel { frame: Frame::around(*to_light), irradiance: irradiance.as_dvec3() }]
+            }
+            EmitterKind::Shape { instance } => {
+                let instance = *instance;
+                if !matches!(world.geometry(instance), Geometry::Shape(Shape::Sphere(_))) {
+                    return vec![Kind::Shape { instance }];
+                }
+                let binding = &world.bindings[world.instances[instance as usize].binding as usize];
+                let mut kinds = vec![Kind::Ball { instance, outwards: true }];
+                if world.materials[binding[0].0 as usize].emits_back {
+                    kinds.push(Kind::Ball { instance, outwards: false });
+                }
+                kinds
+            }
+            EmitterKind::Mesh { instance, .. } => vec![Kind::Mesh { instance: *instance }],
+            EmitterKind::Environment => vec![Kind::Sky],
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Emission from surfaces: Lₑ·|cosθ| per area and solid angle.
+//!
+//! From a sphere, placed by any affine map, by the lines that cross it: those of one direction are
+//! uniform over the disk perpendicular to it, in the sphere's own space as in the world, so that all
+//! photons of a direction weigh the same. From other surfaces by a point uniform in area.
+
+use super::source::{Source, Start};
+use crate::build::{Geometry, World};
+use crate::math::{DVec3, Frame, Placement, Ray, robust, sampling};
+use crate::optics::{EmitterKind, Material, MaterialId, Shape, ShapeHit, TexturePoint};
+use std::f64::consts::PI;
+
+/// A point on an emitting surface, in object space.
+struct Point {
+    p: DVec3,
+    p_error: f64,
+    ng: DVec3,
+    texture: TexturePoint,
+}
+
+impl Source {
+    /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω.
+    pub(super) fn from_ball(
+        &self,
+        world: &World,
+        index: u32,
+        outwards: bool,
+        dir: DVec3,
+        solid_angle: f64,
+        u: [f64; 2],
+    ) -> Option<Start> {
+        let instance = &world.instances[index as usize];
+        let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(index) else { return None };
+        let placement = &instance.placement;
+        let along = placement.local_vector(dir);
+        let length = along.length();
+        let frame = Frame::around(along / length);
+        let d = sampling::disk(u);
+        let height = (1.0 - d.length_squared()).max(0.0).sqrt();
+        let n = frame.to_world(d.extend(if outwards { height } else { -height }));
+        let material = material(world, world.bindings[instance.binding as usize][0]);
+        let p = sphere.center() + n * sphere.radius();
+        let texture = if material.emission.textured() {
+            // The sphere's own coordinates of the point, as a ray finds them.
+            let probe = Ray { origin: p + n * sphere.radius(), dir: -n };
+            TexturePoint::at(shape.surface(&probe, ShapeHit { t: sphere.radius(), face: 0 }).uv, p)
+        } else {
+            TexturePoint::at(Default::default(), p)
+        };
+        let point = Point { p, p_error: shape.p_error(), ng: n, texture };
+        let across = PI * sphere.radius() * sphere.radius() * placement.det().abs() * length;
+        let mut start = self.leaving(world, placement, material, &point, dir, solid_angle * across)?;
+        if !outwards && !instance.visible {
+            // Rays do not meet the lamp, but its light does: from outside only its first surface shines.
+            start.t_max = world.nearest_of(index, &start.ray, f64::INFINITY).map_or(0.0, |hit| hit.t);
+        }
+        Some(start)
+    }
+
+    /// Power: Lₑ·Ω·|cosθ| / pdf, with the density per area of the world.
+    pub(super) fn from_shape(
+        &self,
+        world: &World,
+        index: u32,
+        dir: DVec3,
+        solid_angle: f64,
+        u: [f64; 2],
+    ) -> Option<Start> {
+        let instance = &world.instances[index as usize];
+        let Geometry::Shape(shape) = world.geometry(index) else { return None };
+        let placement = &instance.placement;
+        let sample = shape.sample_area(u);
+        let material = material(world, world.bindings[instance.binding as usize][0]);
+        let cos = placement.unit_normal(sample.ng).dot(dir);
+        if cos == 0.0 || (cos < 0.0 && !material.emits_back) {
+            return None;
+        }
+        let area = placement.area_factor(sample.ng) / sample.pdf;
+        let point = Point {
+            p: sample.p,
+            p_error: shape.p_error(),
+            ng: sample.ng,
+            texture: TexturePoint::at(sample.uv, sample.p),
+        };
+        self.leaving(world, placement, material, &point, dir, solid_angle * cos.abs() * area)
+    }
+
+    /// Power: Lₑ·Ω·|cosθ|·A, the triangle drawn by its share of the area A.
+    pub(super) fn from_mesh(
+        &self,
+        world: &World,
+        index: u32,
+        dir: DVec3,
+        solid_angle: f64,
+        u: [f64; 2],
+    ) -> Option<Start> {
+        let instance = &world.instances[index as usize];
+        let EmitterKind::Mesh { triangles, cumulative, .. } = &world.emitters[self.emitter as usize].kind
+        else {
+            return None;
+        };
+        let Geometry::Mesh(mesh) = world.geometry(index) else { return None };
+        let placement = &instance.placement;
+        let total = *cumulative.last()?;
+        let at = u[0] * total;
+        let i = cumulative.partition_point(|&sum| sum <= at).min(triangles.len() - 1);
+        let below = if i == 0 { 0.0 } else { cumulative[i - 1] };
+        // What the choice has left of the first value is uniform again.
+        let rest = ((at - below) / (cumulative[i] - below)).clamp(0.0, 1.0 - f64::EPSILON);
+        let b = sampling::triangle([rest, u[1]]).map(|b| b as f32);
+        let local = mesh.surface.surface(triangles[i], b);
+        let binding = &world.bindings[instance.binding as usize];
+        let part = mesh.surface.part(triangles[i]) as usize;
+        let material = material(world, binding[part.min(binding.len() - 1)]);
+        let cos = placement.unit_normal(local.ng).dot(dir);
+        if cos == 0.0 || (cos < 0.0 && !material.emits_back) {
+            return None;
+        }
+        let texture = TexturePoint::at(local.uv, local.p);
+        let point = Point { p: local.p, p_error: local.p_error, ng: local.ng, texture };
+        self.leaving(world, placement, material, &point, dir, solid_angle * cos.abs() * total)
+    }
+
+    /// The photon of a point of the surface: `extent` in m²·sr takes radiance to power.
+    fn leaving(
+        &self,
+        world: &World,
+        placement: &Placement,
+        material: &Material,
+        point: &Point,
+        dir: DVec3,
+        extent: f64,
+    ) -> Option<Start> {
+        let radiance = material.emission.at(&world.textures, || point.texture).as_dvec3();
+        let power = radiance * extent;
+        if power == DVec3::ZERO {
+            return None;
+        }
+        let p_error = robust::placed_error(placement, point.p, point.p_error);
+        let ng = placement.unit_normal(point.ng);
+        Some(self.start(world, Ray::leaving(placement.point(point.p), p_error, ng, dir), power))
+    }
+}
+
+fn material(world: &World, id: MaterialId) -> &Material {
+    &world.materials[id.0 as usize]
+}

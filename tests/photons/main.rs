@@ -1,0 +1,9 @@
+//! Photons of small scenes, held against closed forms and against themselves, unaimed.
+//!
+//! Everything goes the way a user's scene goes as far as the photons. Seeds are fixed.
+
+mod aimed;
+mod direct;
+mod glass;
+mod lab;
+mod ledger;
