@@ -47,7 +47,8 @@ impl Placement {
             DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let inverse = world_from_object.inverse();
         let back = inverse.matrix3;
-        let back_norm = DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
+        let back_norm =
+            DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
         Some(Placement {
             world_from_object,
             object_from_world: inverse,

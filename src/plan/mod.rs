@@ -8,9 +8,9 @@ mod photons;
 
 pub use crate::description::Antialiasing;
 use crate::description::{Indirect, Light, Scene};
+use std::ops::Range;
 pub use effects::{Decision, Effect};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
-use std::ops::Range;
 
 /// What a render will do.
 #[derive(Clone, Debug, PartialEq)]

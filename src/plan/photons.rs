@@ -1,7 +1,7 @@
 //! The budget of photons.
 
-pub use crate::description::Kernel;
 use crate::description::{Photons, Scene};
+pub use crate::description::Kernel;
 
 /// How caustics are estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -76,8 +76,7 @@ impl Walk<'_> {
         loop {
             sink.ledger.rays += 1;
             let Some(hit) = self.world.nearest(&path.ray, t_max) else {
-                let lost =
-                    if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
+                let lost = if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
                 *lost += path.power;
                 return;
             };
@@ -134,16 +133,7 @@ impl Walk<'_> {
         let account = if stored { &mut sink.ledger.stored } else { &mut sink.ledger.absorbed };
         *account += ended;
         specular
-            && self.turn(
-                path,
-                &surface,
-                &shading,
-                crossing.as_ref(),
-                behind.is_some(),
-                [km, through],
-                sequence,
-                sink,
-            )
+            && self.turn(path, &surface, &shading, crossing.as_ref(), behind.is_some(), [km, through], sequence, sink)
     }
 
     /// Whether a photon was stored.
@@ -224,8 +214,7 @@ impl Walk<'_> {
             sink.ledger.absorbed += path.power;
             return false;
         };
-        let tolerance =
-            if i == MIRRORED { surface.p_error } else { crossing.map_or(surface.p_error, |c| c.tolerance) };
+        let tolerance = if i == MIRRORED { surface.p_error } else { crossing.map_or(surface.p_error, |c| c.tolerance) };
         // From before an interface that touches something, so that what touches is met.
         let start = if touches && i == REFRACTED { Ray::reaching } else { Ray::leaving };
         path.ray = start(surface.p, tolerance, surface.ng, dir);
