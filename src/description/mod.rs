@@ -16,6 +16,7 @@ mod material;
 mod names;
 mod object;
 mod photons;
+mod places;
 mod read;
 mod scene;
 mod schema;
@@ -29,7 +30,7 @@ mod value;
 
 pub use camera::Camera;
 pub use convert::{NotWritable, to_string};
-pub use diagnostic::{Diagnostic, Kind, Report, Severity};
+pub use diagnostic::{Diagnostic, Finding, Kind, Report, Severity};
 pub use dispersion::Dispersion;
 pub use light::{EnvironmentMap, Light};
 pub use material::{BumpMap, Ior, Material, NAMED_IOR, NormalMap};
@@ -40,6 +41,8 @@ pub use read::{Format, Loaded, load, load_as_written, load_str, load_str_as_writ
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use settings::{Antialiasing, Image, Render};
+pub(crate) use suggest::{listed, question};
 pub use texture::{ColorSpace, Texture, UvMapping, Wrap};
 pub use transform::{Scale, Transform};
+pub use tree::Path as Place;
 pub use value::{Rgb, Source, TextureRef, Vector};

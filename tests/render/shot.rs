@@ -24,7 +24,7 @@ impl Shot {
     }
 
     pub fn passes(mut self, passes: u32) -> Shot {
-        self.options.passes = Some(passes);
+        self.options.passes = Some(0..passes);
         self
     }
 
