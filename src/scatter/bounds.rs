@@ -169,10 +169,14 @@ mod tests {
                 missed += 1;
                 for _ in 0..20 {
                     let share = DVec3::new(random.value(), random.value(), random.value());
-                    let ray = Ray { origin: source.min + (source.max - source.min) * share, dir: cell.sample(random.pair()) };
+                    let ray = Ray {
+                        origin: source.min + (source.max - source.min) * share,
+                        dir: cell.sample(random.pair()),
+                    };
                     rays += 1;
                     let hit = if round {
-                        robust::sphere_roots(ray.origin - target.center, ray.dir, 0.3).is_some_and(|r| r[1] > 0.0)
+                        robust::sphere_roots(ray.origin - target.center, ray.dir, 0.3)
+                            .is_some_and(|r| r[1] > 0.0)
                     } else {
                         slabs(&ray, target.min, target.max)
                     };

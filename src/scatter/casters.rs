@@ -15,9 +15,9 @@ const MOST: usize = 32;
 pub(super) fn casters(world: &World) -> Vec<Bound> {
     let specular = |instance: &Instance| {
         instance.rank != 0
-            || world.bindings[instance.binding as usize].iter().any(|id| {
-                world.materials[id.0 as usize].reflection.bound(&world.textures) != Vec3::ZERO
-            })
+            || world.bindings[instance.binding as usize]
+                .iter()
+                .any(|id| world.materials[id.0 as usize].reflection.bound(&world.textures) != Vec3::ZERO)
     };
     let bounds = world
         .instances

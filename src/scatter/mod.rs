@@ -185,7 +185,8 @@ impl Emission {
                 self.chunk(&walk, &runs, &starts, of, count as f64)
             })
             .collect();
-        let mut all = Scattered { emitted, by_light: vec![Ledger::default(); self.emitters], ..Default::default() };
+        let mut all =
+            Scattered { emitted, by_light: vec![Ledger::default(); self.emitters], ..Default::default() };
         all.photons.reserve_exact(sinks.iter().map(|(sink, _)| sink.photons.len()).sum());
         for (sink, ledgers) in &sinks {
             all.photons.extend_from_slice(&sink.photons);

@@ -78,7 +78,8 @@ impl Walk<'_> {
         loop {
             sink.ledger.rays += 1;
             let Some(surface) = self.meets(&path, t_max) else {
-                let lost = if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
+                let lost =
+                    if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
                 *lost += path.power;
                 return;
             };
@@ -221,7 +222,8 @@ impl Walk<'_> {
             sink.ledger.absorbed += path.power;
             return false;
         };
-        let tolerance = if i == MIRRORED { surface.p_error } else { crossing.map_or(surface.p_error, |c| c.tolerance) };
+        let tolerance =
+            if i == MIRRORED { surface.p_error } else { crossing.map_or(surface.p_error, |c| c.tolerance) };
         path.ray = Ray::leaving(surface.p, tolerance, surface.ng, dir);
         if i == REFRACTED
             && let Some(crossing) = crossing

@@ -24,16 +24,36 @@ pub(super) struct Source {
 #[derive(Clone, Debug)]
 pub(super) enum Kind {
     /// Intensity in W/sr.
-    Point { position: DVec3, intensity: DVec3, falloff: Option<[f64; 3]> },
-    Spot { position: DVec3, axis: DVec3, cos_inner: f64, cos_outer: f64, intensity: DVec3 },
+    Point {
+        position: DVec3,
+        intensity: DVec3,
+        falloff: Option<[f64; 3]>,
+    },
+    Spot {
+        position: DVec3,
+        axis: DVec3,
+        cos_inner: f64,
+        cos_outer: f64,
+        intensity: DVec3,
+    },
     /// A placed sphere, outwards or inwards.
-    Ball { instance: u32, outwards: bool },
+    Ball {
+        instance: u32,
+        outwards: bool,
+    },
     /// Any other placed shape.
-    Shape { instance: u32 },
+    Shape {
+        instance: u32,
+    },
     /// The emitting triangles of a mesh, which the emitter lists.
-    Mesh { instance: u32 },
+    Mesh {
+        instance: u32,
+    },
     /// `frame.n` points to the light.
-    Parallel { frame: Frame, irradiance: DVec3 },
+    Parallel {
+        frame: Frame,
+        irradiance: DVec3,
+    },
     Sky,
 }
 
@@ -68,9 +88,7 @@ impl Source {
             .iter()
             .filter_map(|m| casters::of_instance(world, &world.instances[m.instance as usize]))
             .collect();
-        let outside = |bound: &Bound| {
-            (!media.iter().any(|m| m.overlaps(bound))).then(MediaSet::default)
-        };
+        let outside = |bound: &Bound| (!media.iter().any(|m| m.overlaps(bound))).then(MediaSet::default);
         let mut sources = Vec::new();
         for (emitter, described) in (0u32..).zip(&world.emitters) {
             for kind in Kind::of(world, &described.kind) {
@@ -142,11 +160,9 @@ impl Source {
 impl Kind {
     fn of(world: &World, emitter: &EmitterKind) -> Vec<Kind> {
         match emitter {
-            EmitterKind::Point { position, intensity, falloff } => vec![Kind::Point {
-                position: *position,
-                intensity: intensity.as_dvec3(),
-                falloff: *falloff,
-            }],
+            EmitterKind::Point { position, intensity, falloff } => {
+                vec![Kind::Point { position: *position, intensity: intensity.as_dvec3(), falloff: *falloff }]
+            }
             EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => vec![Kind::Spot {
                 position: *position,
                 axis: *axis,
@@ -154,10 +170,9 @@ impl Kind {
                 cos_outer: *cos_outer,
                 intensity: intensity.as_dvec3(),
             }],
-            EmitterKind::Directional { to_light, irradiance } => vec![Kind::Parallel {
-                frame: Frame::around(*to_light),
-                irradiance: irradiance.as_dvec3(),
-            }],
+            EmitterKind::Directional { to_light, irradiance } => {
+                vec![Kind::Parallel { frame: Frame::around(*to_light), irradiance: irradiance.as_dvec3() }]
+            }
             EmitterKind::Shape { instance } => {
                 let instance = *instance;
                 if !matches!(world.geometry(instance), Geometry::Shape(Shape::Sphere(_))) {
