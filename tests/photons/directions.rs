@@ -44,7 +44,7 @@ fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
     // By midpoints in the bins' own parameters.
     let m = 24;
     let middle = |i: usize| (i as f64 + 0.5) / m as f64;
-    let (mut chi2, mut degrees, mut expected_total) = (0.0, 0.0, 0.0);
+    let (mut chi2, mut degrees, mut expected_total) = (0.0f64, 0.0f64, 0.0f64);
     for (bin, [sum, squares]) in bins.iter().zip(&found) {
         let mean =
             (0..m * m).map(|i| intensity(turn * bin.sample([middle(i / m), middle(i % m)]))).sum::<f64>()
@@ -64,15 +64,15 @@ fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
     }
     assert!((total / expected_total - 1.0).abs() < 5e-3, "{total} W of {expected_total} W");
     // p = 1e-3 by Wilson and Hilferty; stratified photons stay far below.
-    let limit = degrees * f64::powi(1.0 - 2.0 / (9.0 * degrees) + 3.09 * (2.0 / (9.0 * degrees)).sqrt(), 3);
+    let limit = degrees * f64::powi(1.0 - 2.0 / (9.0 * degrees) + 3.09 * f64::sqrt(2.0 / (9.0 * degrees)), 3);
     assert!(chi2 < limit, "χ² = {chi2}, {degrees} degrees of freedom");
-    let first: DVec3 = bins
-        .iter()
-        .flat_map(|bin| {
-            (0..m * m).map(|i| turn * bin.sample([middle(i / m), middle(i % m)]) * bin.solid_angle())
-        })
-        .map(|d| d * intensity(d) / (m * m) as f64)
-        .sum();
+    let mut first = DVec3::ZERO;
+    for bin in &bins {
+        for i in 0..m * m {
+            let d = turn * bin.sample([middle(i / m), middle(i % m)]);
+            first += d * (intensity(d) * bin.solid_angle() / (m * m) as f64);
+        }
+    }
     assert!((moment - first).length() < 5e-3 * total, "{moment} is not {first}");
 }
 
