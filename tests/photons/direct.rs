@@ -135,7 +135,7 @@ fn of_an_ellipsoid() {
 }
 
 #[test]
-fn of_a_quad_and_of_the_same_quad_as_a_mesh_of_boxes_and_shapes() {
+fn of_a_quad_as_a_light_and_as_objects() {
     let quad = |x: f64, z: f64| {
         let n = 40;
         let middle = |i: usize| (i as f64 + 0.5) / n as f64 - 0.5;

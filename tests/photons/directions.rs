@@ -26,7 +26,8 @@ fn turn() -> DMat3 {
 fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
     let scene = lab("", light, r#"(shape: sphere(radius: 1000), material: "white")"#);
     let (bins, turn) = (bins(), turn());
-    let n = 400_000;
+    let n = 150_000;
+    let planes: Vec<[DVec3; 3]> = bins.iter().map(SphericalCell::planes).collect();
     let pass = &scene.passes(Store::Direct, Aim::Scene, 1, n)[0];
     let mut found = vec![[0.0f64; 2]; bins.len()];
     let mut moment = DVec3::ZERO;
@@ -34,7 +35,7 @@ fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
     for photon in &pass.photons {
         let dir = -photon.wi.as_dvec3();
         let local = turn.transpose() * dir;
-        let bin = bins.iter().position(|b| b.contains(local)).unwrap_or(0);
+        let bin = planes.iter().position(|b| b.iter().all(|n| n.dot(local) >= 0.0)).unwrap_or(0);
         let power = f64::from(photon.power.x);
         found[bin][0] += power;
         found[bin][1] += power * power;
@@ -59,7 +60,7 @@ fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
         chi2 += (sum - expected).powi(2) / squares;
         degrees += 1.0;
         if expected > 2e-3 * total {
-            assert!((sum / expected - 1.0).abs() < 0.12, "{sum} W in a bin of {expected} W");
+            assert!((sum / expected - 1.0).abs() < 0.2, "{sum} W in a bin of {expected} W");
         }
     }
     assert!((total / expected_total - 1.0).abs() < 5e-3, "{total} W of {expected_total} W");
