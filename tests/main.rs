@@ -11,6 +11,8 @@ mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+#[path = "photons/main.rs"]
+mod photons;
 #[path = "render/main.rs"]
 mod render;
 #[path = "scene_files/main.rs"]

@@ -18,6 +18,7 @@ mod pilot;
 mod projection;
 mod source;
 mod surfaces;
+mod window;
 
 use crate::build::World;
 use crate::math::Health;
