@@ -12,6 +12,7 @@ mod examine;
 mod footprint;
 pub mod images;
 mod lights;
+mod lobes;
 mod materials;
 mod media;
 mod meshes;

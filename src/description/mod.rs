@@ -36,7 +36,7 @@ pub use light::{EnvironmentMap, Light};
 pub use material::{BumpMap, Ior, Material, NAMED_IOR, NormalMap};
 pub use names::NameMap;
 pub use object::{Object, Polyhedron, Scatter, Shape, Smooth};
-pub use photons::{Indirect, Kernel, Photons};
+pub use photons::{Indirect, IndirectBy, Kernel, Photons};
 pub use read::{Format, Loaded, load, load_as_written, load_str, load_str_as_written};
 pub use scene::Scene;
 pub use schema::json_schema;

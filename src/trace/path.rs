@@ -287,6 +287,11 @@ impl Tracer<'_> {
                 }
             }
         }
+        if let Some(indirect) = &self.indirect {
+            let gathered = self.caustic(indirect, branch, base, surface, shading, tally).radiance;
+            sample.indirect += branch.throughput * gathered;
+            return radiance + gathered;
+        }
         if branch.bounces < self.plan.bounces
             && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
         {
