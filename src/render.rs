@@ -75,7 +75,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     for first in (plan.first_pass..last).step_by(batch as usize) {
         let passes = first..(first + batch).min(last);
         if batch == 1 || first == plan.first_pass {
-            stages.count(&mut photon_stats, &photons);
+            stages.count(&mut photon_stats, &mut tally.health, &photons);
         }
         let tracer =
             Tracer { caustics: stages.caustics(&photons), indirect: stages.indirect(&photons), ..tracer };
@@ -99,6 +99,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     clock.lap("trace");
 
     warnings.extend(health_warnings(&tally, &plan));
+    warnings.extend(photon_stats.warnings(plan.max_depth));
     if options.strict {
         refuse_excesses(&tally)?;
     }

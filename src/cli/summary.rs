@@ -4,7 +4,7 @@ use super::progress::{duration, short};
 use super::report::Terminal;
 use serde::Serialize;
 use terrarium::output::Written;
-use terrarium::render::Stats;
+use terrarium::render::{PhotonStats, Stats};
 
 /// Everything that `--stats` writes.
 #[derive(Debug, Serialize)]
@@ -51,6 +51,14 @@ impl Summary<'_> {
         if !rays.is_empty() {
             terminal.say(&format!("rays: {}", rays.join(", ")));
         }
+        let photons = &self.stats.photons;
+        for (what, photons) in
+            [("photons", &photons.photons), ("indirect photons", &photons.indirect_photons)]
+        {
+            if let Some(photons) = photons {
+                terminal.say(&format!("{what}: {}", of_photons(photons)));
+            }
+        }
         if let Some(bytes) = self.peak_bytes {
             terminal.say(&format!("memory: {:.0} MiB at most", bytes as f64 / f64::from(1 << 20)));
         }
@@ -72,6 +80,43 @@ impl Summary<'_> {
         }
     }
 }
+
+/// Emitted, stored, by which lights, and how far around each point they were gathered.
+fn of_photons(photons: &PhotonStats) -> String {
+    let lights: Vec<String> = photons
+        .lights
+        .iter()
+        .filter(|light| light.share > 0.0)
+        .map(|light| {
+            format!(
+                "`{}` {:.0} % of them, yield {:.1} %",
+                light.name,
+                100.0 * light.share,
+                100.0 * light.yields
+            )
+        })
+        .take(LIGHTS)
+        .collect();
+    let more = photons.lights.iter().filter(|light| light.share > 0.0).count().saturating_sub(LIGHTS);
+    let more = if more > 0 { format!("; {more} lights more") } else { String::new() };
+    let maps = if photons.maps == 1 { "1 map".to_owned() } else { format!("{} maps", photons.maps) };
+    let refused = match photons.refused {
+        0 => String::new(),
+        n => format!("; {n} were not finite and are left out"),
+    };
+    format!(
+        "{} sent out, {} stored in {maps} of at most {:.1} MiB ({}{more}); radius up to {:.3} m, ×{:.2} in the last{refused}",
+        short(photons.emitted as f64),
+        short(photons.stored as f64),
+        photons.map_bytes as f64 / f64::from(1 << 20),
+        lights.join("; "),
+        photons.max_radius,
+        photons.radius_factor,
+    )
+}
+
+/// Lights that are named one by one.
+const LIGHTS: usize = 4;
 
 /// What the writers of all images had to change: the same values in each of them count once.
 pub fn worst(written: &[Written]) -> Written {

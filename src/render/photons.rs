@@ -2,6 +2,7 @@
 
 use crate::build::World;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
+use crate::math::Health;
 use crate::plan::{self, IndirectBy, PhotonBudget, PhotonEngine, Plan};
 use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
@@ -41,6 +42,7 @@ pub struct PassPhotons {
     factor: f32,
     emitted: u64,
     ledger: Ledger,
+    health: Health,
 }
 
 impl PhotonStage {
@@ -97,13 +99,13 @@ impl PhotonStage {
     /// The photons of a pass; where one map serves all, those of the first.
     pub fn pass(&self, world: &World, pass: u32) -> PassPhotons {
         let pass = if self.one_map() { 0 } else { pass };
-        let Scattered { photons, ledger, emitted, .. } =
+        let Scattered { photons, ledger, emitted, health, .. } =
             self.emission.scatter(world, pass, self.budget.count.into());
         let factor = match self.reach {
             Rule::Shrinking { alpha, .. } => shrink(pass, alpha) as f32,
             Rule::Nearest { .. } => 1.0,
         };
-        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger }
+        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger, health }
     }
 
     pub fn caustics<'a>(&'a self, photons: &'a PassPhotons) -> Caustics<'a> {
@@ -159,7 +161,11 @@ impl PassStages {
         AllPhotons { photons: of(&self.caustic), indirect_photons: of(&self.indirect) }
     }
 
-    pub(super) fn count(&self, stats: &mut AllPhotons, maps: &PassMaps) {
+    /// Takes down what the maps of a pass came to.
+    pub(super) fn count(&self, stats: &mut AllPhotons, health: &mut Health, maps: &PassMaps) {
+        for map in [&maps.caustic, &maps.indirect].into_iter().flatten() {
+            health.add(&map.health);
+        }
         let one =
             |stats: &mut Option<PhotonStats>, stage: &Option<PhotonStage>, map: &Option<PassPhotons>| {
                 if let (Some(stats), Some(stage), Some(map)) = (stats, stage, map) {
@@ -195,6 +201,26 @@ pub struct PhotonStats {
     pub radius_factor: f32,
     /// Of the largest map and the pilot's.
     pub map_bytes: usize,
+}
+
+impl AllPhotons {
+    /// What of the photons' light is missing and should not be.
+    pub(super) fn warnings(&self, max_depth: u32) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for photons in [&self.photons, &self.indirect_photons].into_iter().flatten() {
+            if photons.refused > 0 {
+                warnings.push(format!("{} photons were not finite and are left out", photons.refused));
+            }
+            let cut = photons.watts.cut_off / photons.watts.emitted.max(f64::MIN_POSITIVE);
+            if cut > 1e-3 {
+                warnings.push(format!(
+                    "{:.2} % of the photons' power was cut off after {max_depth} specular events in a row (render.max_depth)",
+                    100.0 * cut
+                ));
+            }
+        }
+        warnings
+    }
 }
 
 /// The ledger of a map.
