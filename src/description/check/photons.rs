@@ -13,14 +13,18 @@ pub(super) fn check(c: &mut Checker) {
             }
             ("photons.progressive", count, k, max_radius_m)
         }
-        Photons::Classic { count, k, max_radius_m, .. } => ("photons.classic", Some(count), k, max_radius_m),
+        Photons::Classic { count, k, max_radius_m, .. } => {
+            ("photons.classic", Some(count), Some(k), max_radius_m)
+        }
         Photons::Off => return indirect(c),
     };
     let path = Path::of(key);
     if let Some(count) = count {
         c.within(&path.key("count"), count.into(), 1.0, 1e8);
     }
-    c.within(&path.key("k"), k.into(), 2.0, 10_000.0);
+    if let Some(k) = k {
+        c.within(&path.key("k"), k.into(), 2.0, 10_000.0);
+    }
     if let Some(radius) = radius {
         c.positive(&path.key("max_radius_m"), radius);
     }
