@@ -20,7 +20,7 @@ const FEW: u32 = 12;
 
 /// Counts of trials whose mean is taken, and the most trials of each: a surface that fills less of the disc
 /// than that is taken for noise.
-const COUNTS: u32 = 4;
+const COUNTS: u32 = 2;
 const MOST_TRIALS: u32 = 32;
 
 /// A caustic at a surface point.
