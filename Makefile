@@ -40,6 +40,7 @@ FOUND  := $(sort $(wildcard $(SCENES)/*.ron $(SCENES)/*.toml))
 STEMS  := $(sort $(basename $(notdir $(FOUND))))
 IMAGES := $(foreach stem,$(STEMS),$(OUT)/$(stem).exr $(OUT)/$(stem).png)
 
+## images: the same without the list of failed scenes at the end; stops at the first of them
 images: $(IMAGES)
 
 # Refuses what make can't handle: names with special characters, and two scenes for one image.

@@ -13,8 +13,8 @@ use crate::output;
 use crate::plan::{Antialiasing, Plan};
 use crate::trace::{self, Tally, Tracer};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
-use photons::PhotonStage;
-pub use photons::{LightPhotons, PhotonStats, Watts};
+use photons::PassStages;
+pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};
 use rayon::prelude::*;
 pub use stats::{RareEvent, StageTime, Stats};
 use std::path::PathBuf;
@@ -57,30 +57,28 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     clock.lap("build");
 
     let wants = options.wants();
-    let mut tracer = Tracer { world: &world, plan: &plan, wants, reference_level: 1.0, caustics: None };
+    let mut tracer =
+        Tracer { world: &world, plan: &plan, wants, reference_level: 1.0, caustics: None, indirect: None };
     if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
         tracer.reference_level = trace::reference_level(&tracer);
     }
-    let stage = PhotonStage::new(&world, &plan);
-    let mut photon_stats = stage.as_ref().map(|stage| PhotonStats::new(stage, &world));
+    let stages = PassStages::new(&world, &plan);
+    let mut photon_stats = stages.stats(&world);
     clock.lap("pilot");
 
     let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(&wants));
     let mut tally = Tally::default();
     progress.start("trace", film.tiles.len() as u64 * u64::from(plan.passes), "tiles");
     let last = plan.first_pass + plan.passes;
-    let scatter = |pass: u32| stage.as_ref().map(|stage| stage.pass(&world, pass));
-    let batch = stage.as_ref().filter(|stage| !stage.one_map()).map_or(BATCH, |_| 1);
-    let mut photons = scatter(plan.first_pass);
+    let batch = if stages.one_map() { BATCH } else { 1 };
+    let mut photons = stages.pass(&world, plan.first_pass);
     for first in (plan.first_pass..last).step_by(batch as usize) {
         let passes = first..(first + batch).min(last);
-        if let (Some(stats), Some(stage), Some(photons)) = (&mut photon_stats, &stage, &photons) {
-            stats.add(stage, photons);
+        if batch == 1 || first == plan.first_pass {
+            stages.count(&mut photon_stats, &photons);
         }
-        let tracer = Tracer {
-            caustics: stage.as_ref().zip(photons.as_ref()).map(|(stage, photons)| stage.caustics(photons)),
-            ..tracer
-        };
+        let tracer =
+            Tracer { caustics: stages.caustics(&photons), indirect: stages.indirect(&photons), ..tracer };
         let trace = || -> Vec<Tally> {
             film.tiles
                 .par_iter_mut()
@@ -93,11 +91,9 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         };
         // The next pass's photons are scattered beside this pass's tiles.
         let another = batch == 1 && passes.end < last;
-        let (tallies, next) = rayon::join(trace, || another.then(|| scatter(passes.end)).flatten());
+        let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(&world, passes.end)));
         tallies.iter().for_each(|t| tally.add(t));
-        if another {
-            photons = next;
-        }
+        photons = next.unwrap_or(photons);
     }
     progress.finish();
     clock.lap("trace");

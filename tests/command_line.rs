@@ -95,13 +95,39 @@ fn quiet_renders_say_nothing_and_the_arguments_reach_the_image() {
     let folder = folder();
     let done = run(&folder, "render scene.ron -o a.exr -q --passes 3 --seed 9 --tile 8 --aov depth,normal");
     assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));
-    let file = exr::prelude::read_first_flat_layer_from_file(folder.path().join("a.exr")).expect("an EXR");
+    let (json, channels) = provenance(&folder.path().join("a.exr"));
+    assert_eq!((&json["passes"], &json["seed"]), (&3.into(), &9.into()));
+    assert!(channels > 3 && json["objects"].is_null());
+}
+
+/// What an EXR says of its making, and its number of channels.
+fn provenance(path: &Path) -> (serde_json::Value, usize) {
+    let file = exr::prelude::read_first_flat_layer_from_file(path).expect("an EXR");
     let key = exr::prelude::Text::from(terrarium::output::exr::ATTRIBUTE);
     let json = file.layer_data.attributes.other.get(&key).and_then(|value| value.to_text().ok());
-    let json: serde_json::Value =
-        serde_json::from_str(&json.expect("the provenance").to_string()).expect("JSON");
-    assert_eq!((&json["passes"], &json["seed"]), (&3.into(), &9.into()));
-    assert!(file.layer_data.channel_data.list.len() > 3);
+    let json = json.expect("the provenance").to_string();
+    (serde_json::from_str(&json).expect("JSON"), file.layer_data.channel_data.list.len())
+}
+
+#[test]
+fn the_numbers_of_objects_have_names_in_the_image() {
+    let folder = folder();
+    let call = "render scene.ron -o a.exr -q --aov object_id --set objects.0.name=ball";
+    let done = run(&folder, call);
+    assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));
+    let (json, _) = provenance(&folder.path().join("a.exr"));
+    assert_eq!(json["objects"], serde_json::json!({ "1": "ball" }));
+}
+
+#[test]
+fn cut_paths_are_told_once() {
+    let folder = folder();
+    let call = "render scene.ron -o a.exr --set materials.white=(reflection:1) \
+                --set objects.0.shape=sphere(radius:9) --set render.max_depth=3";
+    let done = terrarium(&folder).args(call.split_whitespace()).output().expect("the program runs");
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(0), "{said}");
+    assert_eq!(said.matches("were cut").count(), 1, "{said}");
 }
 
 #[test]

@@ -6,12 +6,16 @@ mod command_line;
 mod guide;
 mod layers;
 mod makefile;
+#[path = "messages/main.rs"]
 mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+#[path = "photons/main.rs"]
+mod photons;
 #[path = "render/main.rs"]
 mod render;
+#[path = "scene_files/main.rs"]
 mod scene_files;
 mod shapes;
 mod textures;

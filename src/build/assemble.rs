@@ -11,7 +11,7 @@ use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
 use crate::math::{Aabb, DVec3, Vec3};
-use crate::optics::{Camera, Material, Weight};
+use crate::optics::{Camera, Cauchy, Material, Spectrum, Weight};
 use rayon::prelude::*;
 
 pub(super) fn assemble(
@@ -47,7 +47,7 @@ pub(super) fn assemble(
     }
     let coincidence = media.coincidence(&placed.instances, &placed.geometries, &bounds);
     let contacts = Contacts::find(&media.ranked, &placed.instances, &bounds);
-    let media = media
+    let media: Vec<Medium> = media
         .ranked
         .iter()
         .filter_map(|&i| {
@@ -67,6 +67,7 @@ pub(super) fn assemble(
         emitters: lights.emitters,
         environment: lights.environment,
         environment_visible: lights.environment_visible,
+        spectrum: media.iter().any(|m| m.ior.disperses()).then(Spectrum::new),
         media,
         contacts,
         coincidence,
@@ -78,7 +79,7 @@ pub(super) fn assemble(
 }
 
 /// The index of refraction and absorption of an instance's first transmissive part.
-fn inside(instance: &Instance, placed: &Placed, materials: &[Material]) -> Option<(f64, Vec3)> {
+fn inside(instance: &Instance, placed: &Placed, materials: &[Material]) -> Option<(Cauchy, Vec3)> {
     let m = transmissive(instance, placed, materials)?;
     Some((m.ior, m.absorption))
 }
@@ -185,7 +186,7 @@ impl Transmissive {
 
 /// Whether a material in the vacuum leaves light as it is.
 fn changes_nothing(m: &Material) -> bool {
-    m.ior == 1.0
+    m.ior == Cauchy::new(1.0, 0.0)
         && m.transmission == Weight::Constant(Vec3::ONE)
         && m.reflection.is_zero()
         && m.specular.is_zero()

@@ -17,7 +17,37 @@ pub struct Crossing {
     pub tolerance: f64,
 }
 
+/// A path's wavelength from an interface on.
+#[derive(Clone, Copy, Debug)]
+pub struct Colour {
+    /// µm; none where nothing has dispersed yet.
+    pub um: Option<f64>,
+    /// What the path's weight is multiplied by.
+    pub weight: Vec3,
+}
+
 impl World {
+    /// The ratio far/near of the indices of two media for a path of this wavelength, which is drawn by
+    /// `u` if either of them disperses and the path has none yet.
+    #[inline]
+    pub fn relative_ior(
+        &self,
+        near: &MediaSet,
+        far: &MediaSet,
+        um: Option<f64>,
+        u: impl FnOnce() -> f64,
+    ) -> (f64, Colour) {
+        let (near, far) = (self.medium(near).0, self.medium(far).0);
+        let colour = match &self.spectrum {
+            Some(spectrum) if um.is_none() && (near.disperses() || far.disperses()) => {
+                let sample = spectrum.sample(u());
+                Colour { um: Some(sample.um), weight: sample.weight }
+            }
+            _ => Colour { um, weight: Vec3::ONE },
+        };
+        (far.ior(colour.um) / near.ior(colour.um), colour)
+    }
+
     /// The way of the unit direction `dir` through a surface. `None` where nothing is transmitted.
     #[inline]
     pub fn crossing(

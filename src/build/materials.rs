@@ -1,11 +1,14 @@
 //! Textures are loaded, materials resolved. What no object's material names is not loaded.
 
 use super::BuildError;
+use super::examine::Findings;
 use super::images::{Images, Limits, TextureUse};
-use crate::description::{self, Ior, Material as Described, NAMED_IOR, Scene, Source};
+use crate::description::{
+    self, Dispersion, Ior, Kind, Material as Described, NAMED_IOR, Place, Scene, Severity, Source,
+};
 use crate::math::Vec3;
-use crate::optics::{Material, MaterialId, Relief, Texture, TextureId, Weight};
-use std::collections::HashMap;
+use crate::optics::{Cauchy, Material, MaterialId, Relief, Texture, TextureId, Weight};
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// The scene's textures and materials.
@@ -36,6 +39,34 @@ impl Surfaces {
         Ok(Surfaces { textures: textures.list, materials, ids, images: textures.images })
     }
 
+    /// What is wrong with the images that used materials name, and with what these make of them; gives
+    /// back the images.
+    pub fn examine(scene: &Scene, findings: &mut Findings) -> Images {
+        let used = super::objects::used_materials(scene);
+        let images = Images::new(Path::new(""), Limits::default());
+        let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
+        let mut broken = HashSet::new();
+        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(*name)) {
+            for (texture, usage) in named_textures(described) {
+                let known = textures.images.warnings().len();
+                let read = textures.id(texture, usage).map(drop);
+                let place = Place::image_texture(texture);
+                if !findings.image(&place, &read, &textures.images.warnings()[known..]) {
+                    broken.insert(texture);
+                }
+            }
+            if named_textures(described).any(|(texture, _)| broken.contains(texture)) {
+                continue;
+            }
+            let material = textures.material(described);
+            if let Err(error) = material.and_then(|m| check_energy(name, &m, &textures.list)) {
+                let place = Place::of("materials").key(name);
+                findings.add(Severity::Error, Kind::Invalid, &place, error.to_string());
+            }
+        }
+        textures.images
+    }
+
     pub fn id(&self, name: &str) -> Result<MaterialId, BuildError> {
         self.ids
             .get(name)
@@ -51,7 +82,7 @@ impl Surfaces {
             shininess: 1.0,
             reflection: Weight::ZERO,
             transmission: Weight::ZERO,
-            ior: 1.0,
+            ior: Cauchy::VACUUM,
             absorption: Vec3::ZERO,
             priority: 0,
             emission: Weight::Constant(radiance),
@@ -61,6 +92,15 @@ impl Surfaces {
         });
         MaterialId(self.materials.len() as u32 - 1)
     }
+}
+
+/// The textures that a material names.
+fn named_textures(m: &Described) -> impl Iterator<Item = (&str, TextureUse)> {
+    let weights = [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission];
+    let colours = weights.into_iter().filter_map(Source::texture).map(|t| t.name.as_str());
+    let maps = [m.bump_map.as_ref().map(|map| &map.texture), m.normal_map.as_ref().map(|map| &map.texture)];
+    let data = maps.into_iter().flatten().map(String::as_str);
+    colours.map(|name| (name, TextureUse::Color)).chain(data.map(|name| (name, TextureUse::Data)))
 }
 
 /// Textures are loaded when a material first names them.
@@ -118,7 +158,7 @@ impl Textures<'_> {
             shininess: m.shininess.unwrap_or(50.0),
             reflection: reflection?,
             transmission: transmission?,
-            ior: ior(m.ior.as_ref())?,
+            ior: dispersed(ior(m.ior.as_ref())?, m.dispersion),
             absorption: rgb(&m.absorption),
             priority: m.priority,
             emission: emission?,
@@ -149,6 +189,14 @@ fn ior(described: Option<&Ior>) -> Result<f64, BuildError> {
             .find(|(known, _)| known == name)
             .map(|&(_, n)| n)
             .ok_or_else(|| BuildError::Invalid(format!("no index of refraction is named `{name}`"))),
+    }
+}
+
+fn dispersed(ior: f64, dispersion: Option<Dispersion>) -> Cauchy {
+    match dispersion {
+        None => Cauchy::new(ior, 0.0),
+        Some(Dispersion::Abbe(abbe)) => Cauchy::from_abbe(ior, abbe),
+        Some(Dispersion::Cauchy(b)) => Cauchy::new(ior, b),
     }
 }
 

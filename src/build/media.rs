@@ -8,12 +8,13 @@
 
 use super::world::World;
 use crate::math::{DVec3, Ray, Vec3};
+use crate::optics::Cauchy;
 
 /// The inside of a transmissive instance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
     pub instance: u32,
-    pub ior: f64,
+    pub ior: Cauchy,
     /// 1/m.
     pub absorption: Vec3,
 }
@@ -65,9 +66,9 @@ impl MediaSet {
 
 impl World {
     /// The medium of a set's highest rank.
-    pub fn medium(&self, set: &MediaSet) -> (f64, Vec3) {
+    pub fn medium(&self, set: &MediaSet) -> (Cauchy, Vec3) {
         match set.top() {
-            0 => (1.0, Vec3::ZERO),
+            0 => (Cauchy::VACUUM, Vec3::ZERO),
             rank => {
                 let medium = &self.media[rank as usize - 1];
                 (medium.ior, medium.absorption)

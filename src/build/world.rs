@@ -9,7 +9,7 @@ use super::contact::Contacts;
 use super::media::Medium;
 use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
 use crate::optics::{
-    Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Texture, TriangleMesh,
+    Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Spectrum, Texture, TriangleMesh,
 };
 
 /// Everything that rays need.
@@ -30,6 +30,8 @@ pub struct World {
     pub environment_visible: bool,
     /// Insides of transmissive instances, by rank: a later one wins where several overlap.
     pub media: Vec<Medium>,
+    /// Wavelengths, where a medium disperses.
+    pub spectrum: Option<Spectrum>,
     /// What is opaque at the media's surfaces, by rank.
     pub contacts: Vec<Contacts>,
     /// Surfaces of transmissive instances that are closer together than this along the normal, in

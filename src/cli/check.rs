@@ -5,6 +5,7 @@ use super::exit::{Failure, UNREADABLE, USAGE};
 use super::report::{self, Terminal};
 use std::io::Read;
 use std::path::Path;
+use terrarium::build;
 use terrarium::description::{self, Loaded, Report};
 
 /// A scene on standard input ends here; larger ones are mistakes.
@@ -16,7 +17,14 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
     let mut worst = 0;
     for scene in &args.scenes {
         let (diagnostics, code) = match load(scene, &args.reading)? {
-            Ok(loaded) => (loaded.warnings, 0),
+            Ok(loaded) => {
+                let report = files(&loaded);
+                let code = if report.errors().next().is_none() { 0 } else { report.exit_code() };
+                let mut diagnostics = report.diagnostics;
+                diagnostics.extend(loaded.warnings);
+                diagnostics.sort_by_key(|diagnostic| diagnostic.severity);
+                (diagnostics, code)
+            }
             Err(report) => {
                 let code = report.exit_code();
                 (report.diagnostics, code)
@@ -39,6 +47,11 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
         report::print(&format!("{:#}\n", serde_json::Value::Array(results)))?;
     }
     if worst == 0 { Ok(()) } else { Err(Failure::new(worst, "")) }
+}
+
+/// What is wrong with the files that a sound scene names.
+pub fn files(loaded: &Loaded) -> Report {
+    loaded.report(build::examine(&loaded.scene))
 }
 
 /// Reads and checks a scene; `-` is standard input. The outer error is a wrong call.

@@ -5,7 +5,7 @@
 //! was there before stays as it was.
 
 use super::args::RenderArgs;
-use super::check::load_and_report;
+use super::check::{files, load_and_report, refused};
 use super::exit::{FAILED, Failure, USAGE};
 use super::progress::Reporter;
 use super::report::{self, Terminal};
@@ -13,9 +13,10 @@ use super::summary::{Summary, peak_bytes, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use terrarium::description::{Antialiasing, Loaded, Scene};
+use terrarium::description::{Loaded, Scene};
 use terrarium::output::{Stamp, atomic, depfile};
-use terrarium::render::{self, Options, Progress, Rendered};
+use terrarium::plan::Plan;
+use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
@@ -33,7 +34,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
 
     let mut rendered = render::render(&loaded, &options(args), &reporter).map_err(|error| {
         reporter.finish();
-        Failure::from(error)
+        unbuildable(error, &loaded, terminal)
     })?;
     refuse_overwriting(&targets, &rendered.files)?;
     rendered.provenance.stamp = stamp;
@@ -84,6 +85,15 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Building stops at the first file that it cannot use: all that is wrong with them is told instead.
+fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Failure {
+    if matches!(error, RenderError::Failed(_)) {
+        return Failure::from(error);
+    }
+    let report = files(loaded);
+    if report.errors().next().is_none() { Failure::from(error) } else { refused(&report, terminal) }
+}
+
 fn options(args: &RenderArgs) -> Options {
     let mut aovs = Vec::new();
     for aov in &args.aov {
@@ -103,9 +113,7 @@ fn options(args: &RenderArgs) -> Options {
 
 /// The first line: what is rendered, how large, until when, with how many threads.
 fn announcement(args: &RenderArgs, scene: &Scene) -> String {
-    let default = if scene.antialiasing == Antialiasing::Progressive { 64 } else { 1 };
-    let given = args.passes.as_ref().map(|range| range.end - range.start);
-    let passes = given.or(scene.render.passes).unwrap_or(default);
+    let passes = Plan::new(scene, args.passes.clone(), args.seed).passes;
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
     format!(

@@ -54,10 +54,6 @@ impl Summary<'_> {
         if let Some(bytes) = self.peak_bytes {
             terminal.say(&format!("memory: {:.0} MiB at most", bytes as f64 / f64::from(1 << 20)));
         }
-        if self.stats.truncated_paths > 0 {
-            let cut = short(self.stats.truncated_paths as f64);
-            terminal.say(&format!("{cut} paths were cut at the depth limit (render.max_depth)"));
-        }
         for event in self.stats.rare_events.iter().filter(|event| event.count > 0) {
             terminal.say(&format!(
                 "rare: {} {} of {} times ({} allowed)",

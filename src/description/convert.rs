@@ -3,6 +3,7 @@
 
 use super::tree::{Node, Style, Value, number};
 use super::{Format, Scene, read};
+use serde::Serialize;
 
 /// Lines are broken beyond this many characters.
 const WIDTH: usize = 100;
@@ -15,7 +16,12 @@ pub struct NotWritable(String);
 /// The scene in `format`.
 pub fn to_string(scene: &Scene, format: Format) -> Result<String, NotWritable> {
     match format {
-        Format::Toml => toml::to_string(scene).map_err(|e| NotWritable(e.to_string())),
+        Format::Toml => {
+            let mut buffer = toml::ser::Buffer::new();
+            scene.serialize(toml::Serializer::new(&mut buffer)).map_err(|e| NotWritable(e.to_string()))?;
+            // `Display` writes it out in one go; `toml::to_string` moves the rest of the text for each table.
+            Ok(buffer.to_string())
+        }
         Format::Ron => {
             let plain = read::convert_options().to_string(scene).map_err(|e| NotWritable(e.to_string()))?;
             let tree = read::tree_of_ron(&plain).map_err(NotWritable)?;
@@ -29,10 +35,14 @@ pub fn to_string(scene: &Scene, format: Format) -> Result<String, NotWritable> {
 
 /// Appends a node: on one line if it fits after `used` characters, else one part a line.
 fn lay_out(node: &Node, depth: usize, used: usize, text: &mut String) {
-    let line = one_line(node);
-    if depth > 0 && depth * 4 + used + line.chars().count() <= WIDTH {
-        text.push_str(&line);
-        return;
+    // Nothing that holds more values than a line has characters fits on it.
+    let short = depth > 0 && values(node, WIDTH) < WIDTH;
+    if short {
+        let line = one_line(node);
+        if depth * 4 + used + line.chars().count() <= WIDTH {
+            text.push_str(&line);
+            return;
+        }
     }
     let mut block = |open: &str, parts: Vec<(String, &Node)>, close: &str| {
         text.push_str(open);
@@ -67,7 +77,27 @@ fn lay_out(node: &Node, depth: usize, used: usize, text: &mut String) {
                 _ => lay_out(content, depth, used + tag.len(), text),
             }
         }
-        _ => text.push_str(&line),
+        _ => text.push_str(&one_line(node)),
+    }
+}
+
+/// How many values a node holds, itself included; counted up to about `most`.
+fn values(node: &Node, most: usize) -> usize {
+    let sum = |parts: &mut dyn Iterator<Item = &Node>| {
+        let mut count = 1;
+        for part in parts {
+            if count >= most {
+                break;
+            }
+            count += values(part, most - count);
+        }
+        count
+    };
+    match &node.value {
+        Value::Seq(items) => sum(&mut items.iter()),
+        Value::Map(entries, _) => sum(&mut entries.iter().map(|entry| &entry.node)),
+        Value::Tagged(_, _, content) => values(content, most),
+        _ => 1,
     }
 }
 

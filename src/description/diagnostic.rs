@@ -1,8 +1,9 @@
 //! What is said about a scene: one diagnostic a mistake, each with its place.
 
+use super::tree::Path;
 use serde::Serialize;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -51,7 +52,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error about a file as a whole.
-    pub(crate) fn of_file(path: &Path, kind: Kind, message: String) -> Diagnostic {
+    pub(crate) fn of_file(path: &std::path::Path, kind: Kind, message: String) -> Diagnostic {
         Diagnostic { file: Some(path.to_owned()), ..Diagnostic::plain(kind, message) }
     }
 
@@ -112,6 +113,15 @@ impl fmt::Display for Diagnostic {
     }
 }
 
+/// What was found of a loaded scene when its files were looked into, by its place in the scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    pub severity: Severity,
+    pub kind: Kind,
+    pub place: Path,
+    pub message: String,
+}
+
 /// At most 100 characters of a line, and where in them the mistake is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Excerpt {
@@ -120,11 +130,12 @@ pub(crate) struct Excerpt {
 }
 
 impl Excerpt {
-    /// Of the line around `column` (characters, from 0); tabs are shown as spaces.
-    pub fn of(line: &str, column: usize) -> Excerpt {
-        let from = column.saturating_sub(70);
-        let shown = line.chars().skip(from).take(100);
-        Excerpt { text: shown.map(|c| if c.is_control() { ' ' } else { c }).collect(), caret: column - from }
+    /// Of the line around the character at byte `at`; tabs are shown as spaces.
+    pub fn of(line: &str, at: usize) -> Excerpt {
+        let before = line[..at].char_indices().rev().take(70);
+        let (caret, from) = before.enumerate().last().map_or((0, at), |(i, (start, _))| (i + 1, start));
+        let shown = line[from..].chars().take(100);
+        Excerpt { text: shown.map(|c| if c.is_control() { ' ' } else { c }).collect(), caret }
     }
 }
 

@@ -3,7 +3,7 @@
 //! L = km·L_mirror + (1−km)·[ kt·(F·L_reflected + (1−F)·L_refracted) + (1−kt)·L_diffuse ] + highlight,
 //! with km `reflection` and kt `transmission`.
 
-use super::{Rgb, Source};
+use super::{Dispersion, Rgb, Source};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -40,6 +40,9 @@ pub struct Material {
     /// Index of refraction, 0.05 to 10, or a name. Without it: 1.5.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ior: Option<Ior>,
+    /// How `ior` depends on the wavelength; needs `transmission`. Without it: not at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dispersion: Option<Dispersion>,
     /// Beer–Lambert absorption inside, per metre; needs `transmission`.
     #[serde(skip_serializing_if = "Rgb::is_zero")]
     pub absorption: Rgb,

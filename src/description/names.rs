@@ -5,25 +5,33 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;
 
 /// Named entries in the order of the file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct NameMap<T> {
     entries: Vec<(String, T)>,
+    /// The position of each name.
+    index: HashMap<String, usize>,
+}
+
+impl<T: PartialEq> PartialEq for NameMap<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries == other.entries
+    }
 }
 
 impl<T> Default for NameMap<T> {
     fn default() -> Self {
-        NameMap { entries: Vec::new() }
+        NameMap { entries: Vec::new(), index: HashMap::new() }
     }
 }
 
 impl<T> NameMap<T> {
     pub fn get(&self, name: &str) -> Option<&T> {
-        self.entries.iter().find(|(n, _)| n == name).map(|(_, entry)| entry)
+        self.index.get(name).map(|i| &self.entries[*i].1)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
@@ -48,9 +56,10 @@ impl<T> NameMap<T> {
 
     /// Adds an entry; gives it back if the name is taken.
     pub fn insert(&mut self, name: String, entry: T) -> Result<(), T> {
-        if self.get(&name).is_some() {
+        if self.index.contains_key(&name) {
             return Err(entry);
         }
+        self.index.insert(name.clone(), self.entries.len());
         self.entries.push((name, entry));
         Ok(())
     }
@@ -78,11 +87,11 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for NameMap<T> {
 
             fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<NameMap<T>, A::Error> {
                 let mut map = NameMap::default();
-                let mut taken = HashSet::new();
                 while let Some(name) = access.next_key::<String>()? {
-                    if !taken.insert(name.clone()) {
+                    if map.index.contains_key(&name) {
                         return Err(A::Error::custom(format!("the name `{name}` is given twice")));
                     }
+                    map.index.insert(name.clone(), map.entries.len());
                     map.entries.push((name, access.next_value()?));
                 }
                 Ok(map)

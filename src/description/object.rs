@@ -16,7 +16,8 @@ pub struct Object {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     pub shape: Shape,
-    /// A name of `materials`. Objects within a group that have none take the group's.
+    /// A name of `materials`. Objects within a group that have none take the group's; a mesh needs none
+    /// whose `parts` name all of its parts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -151,7 +152,7 @@ pub enum Shape {
 pub struct Scatter {
     /// Entries of `definitions` to choose from with equal chance.
     pub of: Vec<String>,
-    /// The surface: the name of an object in `objects`, where it stands there; or an entry of
+    /// The surface: the name of a placed object (in a group too), where it stands; or an entry of
     /// `definitions`, in this object's own coordinates (it carries, and is not seen itself).
     pub over: String,
     /// Copies, 1 to 10 million. Places that `max_slope_deg` rules out are drawn again.

@@ -127,6 +127,33 @@ pub enum Indirect {
     Bounces(u32),
 }
 
+/// How indirect light is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum IndirectBy {
+    /// By photons where most of the light stays in the scene, as in rooms; by paths in the open.
+    #[default]
+    Auto,
+    /// A photon map of what diffuse surfaces send on, gathered where the camera looks.
+    ///
+    /// ```ron
+    /// indirect: true, indirect_by: photons
+    /// ```
+    Photons,
+    /// Camera paths go on from diffuse surfaces.
+    ///
+    /// ```ron
+    /// indirect: true, indirect_by: paths
+    /// ```
+    Paths,
+}
+
+impl IndirectBy {
+    pub fn is_default(&self) -> bool {
+        *self == IndirectBy::Auto
+    }
+}
+
 impl Indirect {
     pub fn is_off(&self) -> bool {
         *self == Indirect::Off

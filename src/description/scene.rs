@@ -1,7 +1,8 @@
 //! The whole scene: the root of every scene file.
 
 use super::{
-    Antialiasing, Camera, Image, Indirect, Light, Material, NameMap, Object, Photons, Render, Rgb, Texture,
+    Antialiasing, Camera, Image, Indirect, IndirectBy, Light, Material, NameMap, Object, Photons, Render,
+    Rgb, Texture,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,9 @@ pub struct Scene {
     /// Light that bounces between diffuse surfaces.
     #[serde(skip_serializing_if = "Indirect::is_off")]
     pub indirect: Indirect,
+    /// How that light is found.
+    #[serde(skip_serializing_if = "IndirectBy::is_default")]
+    pub indirect_by: IndirectBy,
     /// Radiance seen by eye rays that leave the scene where no environment light shines. Lights nothing.
     pub background: Rgb,
     /// Classic constant ambient radiance: every diffuse surface reflects `diffuse · ambient`.

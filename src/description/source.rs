@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 /// Scene files above this size are refused, bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 256 << 20;
 
+#[derive(Debug)]
 pub(crate) struct Source {
     /// Where it was read from; none for standard input and `--set`.
     pub file: Option<PathBuf>,
@@ -19,11 +20,19 @@ pub(crate) struct Source {
     pub text: String,
 }
 
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Sources {
     sources: Vec<Source>,
     /// Where each line of each source starts.
     lines: Vec<Vec<usize>>,
+}
+
+/// Line and column (from 1, in characters) of a place in a text, the line itself, and the place in it, bytes.
+struct Position<'a> {
+    line: usize,
+    column: usize,
+    text: &'a str,
+    at: usize,
 }
 
 impl Sources {
@@ -50,24 +59,24 @@ impl Sources {
     /// A diagnostic that points at `span`.
     pub fn diagnostic(&self, severity: Severity, kind: Kind, span: Span, message: String) -> Diagnostic {
         let source = self.get(span.source);
-        let (line, column, text) = self.position(span);
+        let Position { line, column, text, at } = self.position(span);
         Diagnostic {
             severity,
             kind,
             file: source.file.clone(),
-            line: (!source.argument).then_some(line),
-            column: Some(column),
+            line: (!source.argument).then_some(line as u32),
+            column: Some(column as u32),
             path: None,
             message,
             help: None,
             argument: source.argument.then(|| source.text.clone()),
-            excerpt: (!source.argument).then(|| Excerpt::of(text, column as usize - 1)),
+            excerpt: (!source.argument).then(|| Excerpt::of(text, at)),
             order: (span.source, span.start),
         }
     }
 
-    /// Line and column (from 1, in characters) of a span's start, and the line's text.
-    fn position(&self, span: Span) -> (u32, u32, &str) {
+    /// Of a span's start.
+    fn position(&self, span: Span) -> Position<'_> {
         let text = &self.get(span.source).text;
         let lines = &self.lines[span.source];
         let mut offset = span.start.min(text.len());
@@ -77,14 +86,16 @@ impl Sources {
         let line = lines.partition_point(|start| *start <= offset);
         let start = lines[line - 1];
         let end = lines.get(line).map_or(text.len(), |next| next - 1);
-        let column = text[start..offset].chars().count() + 1;
-        (line as u32, column as u32, text[start..end].trim_end_matches('\r'))
+        // as many characters as bytes that do not continue one
+        let before = text[start..offset].bytes().filter(|byte| byte & 0xc0 != 0x80).count();
+        let shown = text[start..end].trim_end_matches('\r');
+        Position { line, column: before + 1, text: shown, at: (offset - start).min(shown.len()) }
     }
 
     /// `file:line:column` of a span, for messages that name a second place.
     pub fn place(&self, span: Span) -> String {
         let source = self.get(span.source);
-        let (line, column, _) = self.position(span);
+        let Position { line, column, .. } = self.position(span);
         match (&source.file, source.argument) {
             (_, true) => format!("--set {}", source.text),
             (Some(file), _) => format!("{}:{line}:{column}", file.display()),

@@ -3,7 +3,9 @@
 //! Everything between text and types works on it: `include` merges trees, `--set` edits them, the
 //! reader deserialises from them, and the checks find the place of a value by its path.
 
+use std::collections::HashMap;
 use std::fmt::{self, Write};
+use std::sync::Arc;
 
 /// A byte range of a source, `Sources::get(source)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,11 +108,11 @@ impl Node {
         }
     }
 
-    /// The node at `path`, or the deepest one on the way to it that exists, and whether the way met a hole.
-    pub fn find(&self, path: &Path) -> Found<'_> {
+    /// The node at the end of `steps`, or the deepest one on the way to it that exists, and whether the way met a hole.
+    fn find(&self, steps: &[&Step]) -> Found<'_> {
         let mut node = self;
         let mut whole = true;
-        for step in &path.0 {
+        for step in steps {
             if node.is_hole() {
                 break;
             }
@@ -129,7 +131,7 @@ impl Node {
         match (&self.value, step) {
             (Value::Map(..), Step::Key(key)) => self.entry(key).map(|entry| &entry.node),
             (Value::Seq(items), Step::Index(i)) => items.get(*i),
-            (Value::Tagged(tag, _, content), Step::Key(key)) if tag == key => Some(unwrapped(content)),
+            (Value::Tagged(tag, _, content), Step::Key(key)) if **tag == **key => Some(unwrapped(content)),
             (Value::Tagged(tag, _, content), _) if tag == "Some" => unwrapped(content).step(step),
             (Value::Tagged(_, _, content), _) => content.step(step),
             _ => None,
@@ -155,36 +157,73 @@ pub(crate) struct Found<'a> {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
-    Key(String),
+    Key(Box<str>),
     Index(usize),
 }
 
-/// A place in the scene: `materials.ball.ior`, `objects.3.shape`.
+/// A place in the scene: `materials.ball.ior`, `objects.3.shape`. Longer ones share their beginning.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Path(pub Vec<Step>);
+pub struct Path(Option<Arc<(Path, Step)>>);
 
 impl Path {
     /// From a dotted text without names of the user's: `camera.eye`.
     pub fn of(text: &str) -> Path {
-        Path(text.split('.').map(|part| Step::Key(part.into())).collect())
+        text.split('.').fold(Path::default(), |path, part| path.key(part))
     }
 
     pub fn key(&self, key: &str) -> Path {
-        let mut path = self.clone();
-        path.0.push(Step::Key(key.into()));
-        path
+        self.then(Step::Key(key.into()))
     }
 
     pub fn index(&self, index: usize) -> Path {
-        let mut path = self.clone();
-        path.0.push(Step::Index(index));
-        path
+        self.then(Step::Index(index))
+    }
+
+    /// The file of an image texture.
+    pub fn image_texture(name: &str) -> Path {
+        Path::of("textures").key(name).key("image").key("path")
+    }
+
+    /// The file of an environment light.
+    pub fn environment_image(name: &str) -> Path {
+        Path::of("lights").key(name).key("environment").key("map").key("image").key("path")
+    }
+
+    /// The file of the mesh at this object.
+    pub fn mesh(&self) -> Path {
+        self.key("shape").key("mesh").key("path")
+    }
+
+    /// The material of a part of the mesh at this object.
+    pub fn mesh_part(&self, part: &str) -> Path {
+        self.key("shape").key("mesh").key("parts").key(part)
+    }
+
+    /// An object of the group at this object.
+    pub fn member(&self, index: usize) -> Path {
+        self.key("shape").key("group").key("objects").index(index)
+    }
+
+    pub(crate) fn then(&self, step: Step) -> Path {
+        Path(Some(Arc::new((self.clone(), step))))
+    }
+
+    /// From the scene's root on.
+    pub(crate) fn steps(&self) -> Vec<&Step> {
+        let mut steps = Vec::new();
+        let mut path = self;
+        while let Some((before, step)) = path.0.as_deref() {
+            steps.push(step);
+            path = before;
+        }
+        steps.reverse();
+        steps
     }
 }
 
 impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (i, step) in self.0.iter().enumerate() {
+        for (i, step) in self.steps().into_iter().enumerate() {
             if i > 0 {
                 f.write_char('.')?;
             }
@@ -197,6 +236,32 @@ impl fmt::Display for Path {
             }
         }
         Ok(())
+    }
+}
+
+/// A tree whose maps of names (`materials`, `textures`, …) are searched without going through them.
+pub(crate) struct Index<'a> {
+    pub root: &'a Node,
+    named: HashMap<(&'a str, &'a str), &'a Node>,
+}
+
+impl<'a> Index<'a> {
+    pub fn new(root: &'a Node) -> Index<'a> {
+        let maps = root.entries().iter().flat_map(|map| {
+            map.node.entries().iter().map(move |entry| ((map.key.as_str(), entry.key.as_str()), &entry.node))
+        });
+        Index { root, named: maps.collect() }
+    }
+
+    /// As `Node::find` from the root.
+    pub fn find(&self, path: &Path) -> Found<'a> {
+        let steps = path.steps();
+        if let [Step::Key(map), Step::Key(name), rest @ ..] = &steps[..]
+            && let Some(node) = self.named.get(&(&**map, &**name))
+        {
+            return node.find(rest);
+        }
+        self.root.find(&steps)
     }
 }
 

@@ -16,10 +16,8 @@ const FEWEST: f64 = 8.0;
 #[derive(Clone, Debug)]
 pub struct Bandwidth {
     pilot: PhotonMap,
-    /// Which of the pilot's nearest photons is asked for.
-    k: usize,
-    /// Its distance times this is the radius.
-    factor: f32,
+    /// The radius at each of the pilot's photons, in the map's order.
+    radii: Vec<f32>,
     min: f32,
     max: f32,
 }
@@ -33,22 +31,28 @@ impl Bandwidth {
         let expected = k * pilot.len() as f64 / photons.max(1.0);
         let asked = expected.max(FEWEST).ceil();
         let factor = (expected / asked).sqrt() as f32;
-        Bandwidth { pilot, k: asked.min(f64::from(u32::MAX)) as usize, factor, min, max }
+        let k = asked.min(f64::from(u32::MAX)) as usize;
+        // Beyond this distance the answer is `max` in any case.
+        let farthest = max / factor;
+        let radii = pilot.at_each(|p, n| {
+            let found = pilot.nearest_radius(p, n, k, farthest);
+            found.map_or(max, |r| (r * factor).min(max)).max(min)
+        });
+        Bandwidth { pilot, radii, min, max }
     }
 
-    /// Metres: about the distance at which `p`'s k-th photon would be in a pass's map, on the side of
-    /// the unit geometric normal `n`; `max` where the pilot has too few photons to say.
+    /// Metres: about the distance at which the k-th photon would be in a pass's map from the pilot's photon
+    /// nearest to `p`, on the side of the unit geometric normal `n`; `max` where no such photon is near.
     #[inline]
     pub fn radius(&self, p: Vec3, n: Vec3) -> f32 {
-        // Beyond this distance the answer is `max` in any case.
-        let farthest = self.max / self.factor;
-        let found = self.pilot.nearest_radius(p, n, self.k, farthest);
-        found.map_or(self.max, |r| (r * self.factor).min(self.max)).max(self.min)
+        // The distance to the k-th changes no faster than the place.
+        let near = |(place, distance): (usize, f32)| self.radii[place].max(distance);
+        self.pilot.nearest(p, n, self.max).map_or(self.max, near).clamp(self.min, self.max)
     }
 
     /// The pilot's memory.
     pub fn memory_bytes(&self) -> usize {
-        self.pilot.memory_bytes()
+        self.pilot.memory_bytes() + self.radii.capacity() * size_of::<f32>()
     }
 }
 

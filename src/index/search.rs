@@ -66,6 +66,27 @@ impl PhotonMap {
         self.boxes.visit(p, &mut Within { map: self, surface: Surface::new(p, n), bound, visit });
     }
 
+    /// The place of the photon nearest to `p` that counts within `max`, and its distance.
+    #[inline]
+    pub(super) fn nearest(&self, p: Vec3, n: Vec3, max: f32) -> Option<(usize, f32)> {
+        self.with_nearest(p, n, 1, max, |nearest| {
+            nearest.last().map(|candidate| (candidate.place(), candidate.distance_squared().sqrt()))
+        })
+    }
+
+    /// What `of` says of each photon's position and normal, in the map's order; 0 for places without one.
+    pub(super) fn at_each(&self, of: impl Fn(Vec3, Vec3) -> f32 + Sync) -> Vec<f32> {
+        use rayon::prelude::*;
+        (0..self.packed.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|place| {
+                let p = self.positions[place / LEAF].at(place % LEAF);
+                if p.is_nan() { 0.0 } else { of(p, unpack_direction(self.packed[place].normal)) }
+            })
+            .collect()
+    }
+
     /// The photon at a place.
     #[inline(always)]
     pub(super) fn hit(&self, p: Vec3, place: usize, distance_squared: f32) -> Hit {

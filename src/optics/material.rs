@@ -1,6 +1,6 @@
 //! Materials as the renderer sees them: every name resolved, every default filled in.
 
-use super::{Texture, TexturePoint};
+use super::{Cauchy, Texture, TexturePoint};
 use crate::math::Vec3;
 
 /// An index into the world's materials.
@@ -71,7 +71,7 @@ pub struct Material {
     pub reflection: Weight,
     /// kt.
     pub transmission: Weight,
-    pub ior: f64,
+    pub ior: Cauchy,
     /// 1/m.
     pub absorption: Vec3,
     pub priority: i32,

@@ -10,6 +10,7 @@ mod fresnel;
 mod material;
 mod mesh;
 mod shape;
+mod spectrum;
 mod surface;
 pub mod texture;
 
@@ -23,5 +24,6 @@ pub use shape::{
     AreaSample, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid, Sphere,
     sample_triangle_direction, triangle_direction_pdf,
 };
+pub use spectrum::{Cauchy, Spectrum, WavelengthSample};
 pub use surface::LocalSurface;
 pub use texture::{Texture, TexturePoint, bumped_normal, perturbed_normal_from_map};

@@ -52,7 +52,7 @@ pub fn write(
         line_order: LineOrder::Increasing,
     };
     let size = Vec2(image.width, image.height);
-    let layer = Layer::new(size, attributes(provenance), encoding, AnyChannels::sort(channels));
+    let layer = Layer::new(size, attributes(&provenance.about(image)), encoding, AnyChannels::sort(channels));
     let mut file = exr::image::Image::from_layer(layer);
     file.attributes.chromaticities = Some(REC_709);
     file.attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));

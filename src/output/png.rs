@@ -58,7 +58,7 @@ pub fn write(
     if let Some(stamp) = &provenance.stamp {
         encoder.add_text_chunk("Creation Time".to_string(), stamp.date())?;
     }
-    encoder.add_text_chunk(super::exr::ATTRIBUTE.to_string(), provenance.to_json())?;
+    encoder.add_text_chunk(super::exr::ATTRIBUTE.to_string(), provenance.about(image).to_json())?;
     let mut writer = encoder.write_header()?;
     // for readers that don't know the sRGB chunk: the nearest power law, 1/2.2, in 1/100000
     writer.write_chunk(png::chunk::gAMA, &45_455u32.to_be_bytes())?;

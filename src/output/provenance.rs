@@ -3,12 +3,17 @@
 //! By default only what the scene, the seed and the program decide, so that the same render is
 //! the same file, byte for byte. The time and the machine are added on request (`Stamp`).
 
-use super::CameraView;
+use super::{CameraView, Image};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// The colour space of every colour channel, by OpenImageIO's name.
 pub const COLOR_SPACE: &str = "lin_rec709";
+
+/// The layer that holds numbers of objects.
+const OBJECT_LAYER: &str = "object_id";
 
 /// What is known of an image's making.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +35,9 @@ pub struct Provenance {
     /// Counts that are the same on every run: no times, no memory.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub stats: Map<String, Value>,
+    /// What the numbers of the `object_id` layer stand for.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub objects: BTreeMap<u32, String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub owner: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -60,10 +68,20 @@ impl Provenance {
             color_space: COLOR_SPACE.to_string(),
             camera: None,
             stats: Map::new(),
+            objects: BTreeMap::new(),
             owner: None,
             comments: None,
             stamp: None,
         }
+    }
+
+    /// Without what `image` gives no reason to say: the names of objects that no layer numbers.
+    pub(super) fn about(&self, image: &Image) -> Cow<'_, Provenance> {
+        let numbered = image.layers.iter().any(|layer| layer.name == OBJECT_LAYER);
+        if numbered || self.objects.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Provenance { objects: BTreeMap::new(), ..self.clone() })
     }
 
     /// JSON in ASCII: characters beyond it are escaped, because not every reader of image
@@ -112,6 +130,7 @@ fn civil_date(days: u64) -> (u64, u64, u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Layer;
 
     #[test]
     fn dates_are_those_of_the_calendar() {
@@ -134,6 +153,18 @@ mod tests {
         provenance.stats.insert("cutPaths".to_string(), 3.into());
         let json = provenance.to_json();
         assert!(json.is_ascii() && json.contains(&"ab".repeat(32)));
+        assert_eq!(serde_json::from_str::<Provenance>(&json).ok(), Some(provenance));
+    }
+
+    #[test]
+    fn objects_are_named_where_a_layer_numbers_them() {
+        let mut provenance = Provenance::new(&[0; 32], 0, 1);
+        provenance.objects = [(1, "floor".to_string()), (12, "tree".to_string())].into();
+        let mut image = Image::new(1, 1);
+        assert!(!provenance.about(&image).to_json().contains("floor"));
+        image.layers.push(Layer { name: OBJECT_LAYER.to_string(), channels: Vec::new() });
+        let json = provenance.about(&image).to_json();
+        assert!(json.contains(r#""objects":{"1":"floor","12":"tree"}"#), "{json}");
         assert_eq!(serde_json::from_str::<Provenance>(&json).ok(), Some(provenance));
     }
 

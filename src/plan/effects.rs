@@ -10,6 +10,7 @@ pub enum Effect {
     Reflection,
     Refraction,
     Absorption,
+    Dispersion,
     Caustics,
     Indirect,
     Textures,
@@ -26,6 +27,7 @@ impl Effect {
             Effect::Reflection => "reflection",
             Effect::Refraction => "refraction",
             Effect::Absorption => "absorption",
+            Effect::Dispersion => "dispersion",
             Effect::Caustics => "caustics",
             Effect::Indirect => "indirect",
             Effect::Textures => "textures",
@@ -78,6 +80,11 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
         ),
         decision(Effect::Reflection, named(&|m| !m.reflection.is_zero()), "no material reflects"),
         decision(Effect::Refraction, named(&|m| !m.transmission.is_zero()), "no material transmits"),
+        decision(
+            Effect::Dispersion,
+            named(&|m| m.dispersion.is_some() && !m.transmission.is_zero()),
+            "no material disperses",
+        ),
         decision(Effect::Absorption, named(&|m| !m.absorption.is_zero()), "no material absorbs inside"),
         caustics(scene, &named, light(&|_| true).or_else(emitting)),
         decision(

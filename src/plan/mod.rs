@@ -7,6 +7,7 @@ mod effects;
 mod photons;
 
 pub use crate::description::Antialiasing;
+pub use crate::description::IndirectBy;
 use crate::description::{Indirect, Light, Scene};
 pub use effects::{Decision, Effect};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
@@ -30,6 +31,9 @@ pub struct Plan {
     pub photons: Option<PhotonBudget>,
     /// Bounces between diffuse surfaces at most; 0 without indirect light.
     pub bounces: u32,
+    pub indirect_by: IndirectBy,
+    /// Photons of indirect light, should it be found by them.
+    pub indirect_photons: PhotonBudget,
     pub decisions: Vec<Decision>,
 }
 
@@ -59,6 +63,8 @@ impl Plan {
             // One sample of many averages its chances out; one of few must not show them.
             split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
             photons: photons::budget(scene).filter(|_| caustics),
+            indirect_by: scene.indirect_by,
+            indirect_photons: photons::indirect(scene),
             bounces: match scene.indirect {
                 Indirect::Off => 0,
                 Indirect::On => u32::MAX,

@@ -42,3 +42,20 @@ pub(super) fn budget(scene: &Scene) -> Option<PhotonBudget> {
         }
     }
 }
+
+/// The same for indirect light, which is spread over the whole scene.
+pub(super) fn indirect(scene: &Scene) -> PhotonBudget {
+    let asked = budget(scene).filter(|_| !scene.photons.is_default());
+    asked.unwrap_or_else(|| {
+        let pixels = u64::from(scene.image.width) * u64::from(scene.image.height);
+        PhotonBudget {
+            count: pixels.clamp(COUNT.0, COUNT.1) as u32,
+            engine: PhotonEngine::Progressive { alpha: Photons::ALPHA, k: INDIRECT_K },
+            kernel: Kernel::default(),
+            max_radius: None,
+        }
+    })
+}
+
+/// Indirect light is smooth: it can be blurred more than a caustic.
+const INDIRECT_K: u32 = 60;

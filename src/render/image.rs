@@ -62,6 +62,8 @@ pub(super) fn provenance(
         aperture_m: 2.0 * camera.lens_radius,
         focus_m: camera.focus,
     });
+    // 0 is no object.
+    provenance.objects = (1..).zip(world.object_names.iter().cloned()).collect();
     let stats = &mut provenance.stats;
     stats.insert("samples".to_owned(), film.samples().into());
     // Whether, not how many: a corner that tiles share is counted in each of them, and the size of

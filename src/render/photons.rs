@@ -2,8 +2,8 @@
 
 use crate::build::World;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
-use crate::plan::{self, PhotonBudget, PhotonEngine, Plan};
-use crate::scatter::{Emission, Ledger, Scattered};
+use crate::plan::{self, IndirectBy, PhotonBudget, PhotonEngine, Plan};
+use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
 
 /// Photons of the pilot from which the first radius comes.
@@ -14,6 +14,12 @@ const PILOT_PASS: u32 = u32::MAX;
 
 /// The largest radius as a share of the size of what focuses light.
 const MAX_RADIUS: f64 = 0.25;
+
+/// The same for indirect light, as a share of the size of the scene.
+const MAX_INDIRECT_RADIUS: f64 = 0.1;
+
+/// The part of the light that diffuse surfaces send on which reaches others, from which on photons find it better.
+const ENCLOSED: f64 = 0.5;
 
 /// All that the passes' photons have in common.
 pub struct PhotonStage {
@@ -39,10 +45,32 @@ pub struct PassPhotons {
 
 impl PhotonStage {
     /// `None` where the plan has no caustics, or no light reaches a mirror or an interface.
-    pub fn new(world: &World, plan: &Plan) -> Option<PhotonStage> {
+    pub fn caustic(world: &World, plan: &Plan) -> Option<PhotonStage> {
         let budget = plan.photons?;
         let emission = Emission::new(world, plan)?;
-        let max_radius = budget.max_radius.unwrap_or(MAX_RADIUS * emission.caster_radius()) as f32;
+        let radius = MAX_RADIUS * emission.caster_radius();
+        Some(PhotonStage::of(world, emission, budget, radius))
+    }
+
+    /// `None` where indirect light is not asked for or is better found by paths.
+    pub fn indirect(world: &World, plan: &Plan) -> Option<PhotonStage> {
+        if plan.bounces == 0 || plan.indirect_by == IndirectBy::Paths {
+            return None;
+        }
+        let emission = Emission::of(world, plan, Store::Indirect, Aim::Scene)?;
+        let (flux, arrived) = emission
+            .lights()
+            .iter()
+            .fold((0.0, 0.0), |(flux, arrived), l| (flux + l.flux, arrived + l.flux * l.yield_share));
+        if plan.indirect_by == IndirectBy::Auto && arrived < ENCLOSED * flux {
+            return None;
+        }
+        let radius = MAX_INDIRECT_RADIUS * emission.caster_radius();
+        Some(PhotonStage::of(world, emission, plan.indirect_photons, radius))
+    }
+
+    fn of(world: &World, emission: Emission, budget: PhotonBudget, max_radius: f64) -> PhotonStage {
+        let max_radius = budget.max_radius.unwrap_or(max_radius) as f32;
         let reach = match budget.engine {
             PhotonEngine::Classic { k } => Rule::Nearest { k: k as usize },
             PhotonEngine::Progressive { alpha, k } => {
@@ -58,7 +86,7 @@ impl PhotonStage {
             plan::Kernel::Cone => Kernel::Cone { kappa: 1.1 },
             plan::Kernel::Epanechnikov => Kernel::Epanechnikov,
         };
-        Some(PhotonStage { emission, budget, reach, kernel, max_radius })
+        PhotonStage { emission, budget, reach, kernel, max_radius }
     }
 
     /// Whether all passes gather the same photons.
@@ -85,6 +113,69 @@ impl PhotonStage {
         };
         Caustics { map: &photons.map, kernel: self.kernel, reach }
     }
+}
+
+/// The photon stages that the plan calls for.
+pub struct PassStages {
+    caustic: Option<PhotonStage>,
+    indirect: Option<PhotonStage>,
+}
+
+/// What the photon stages make for one pass.
+pub struct PassMaps {
+    caustic: Option<PassPhotons>,
+    indirect: Option<PassPhotons>,
+}
+
+impl PassStages {
+    pub fn new(world: &World, plan: &Plan) -> PassStages {
+        PassStages {
+            caustic: PhotonStage::caustic(world, plan),
+            indirect: PhotonStage::indirect(world, plan),
+        }
+    }
+
+    /// Whether one set of maps serves all passes.
+    pub fn one_map(&self) -> bool {
+        [&self.caustic, &self.indirect].into_iter().flatten().all(PhotonStage::one_map)
+    }
+
+    pub fn pass(&self, world: &World, pass: u32) -> PassMaps {
+        let of = |stage: &Option<PhotonStage>| stage.as_ref().map(|stage| stage.pass(world, pass));
+        let (caustic, indirect) = rayon::join(|| of(&self.caustic), || of(&self.indirect));
+        PassMaps { caustic, indirect }
+    }
+
+    pub fn caustics<'a>(&'a self, maps: &'a PassMaps) -> Option<Caustics<'a>> {
+        Some(self.caustic.as_ref()?.caustics(maps.caustic.as_ref()?))
+    }
+
+    pub fn indirect<'a>(&'a self, maps: &'a PassMaps) -> Option<Caustics<'a>> {
+        Some(self.indirect.as_ref()?.caustics(maps.indirect.as_ref()?))
+    }
+
+    pub(super) fn stats(&self, world: &World) -> AllPhotons {
+        let of = |stage: &Option<PhotonStage>| stage.as_ref().map(|stage| PhotonStats::new(stage, world));
+        AllPhotons { photons: of(&self.caustic), indirect_photons: of(&self.indirect) }
+    }
+
+    pub(super) fn count(&self, stats: &mut AllPhotons, maps: &PassMaps) {
+        let one =
+            |stats: &mut Option<PhotonStats>, stage: &Option<PhotonStage>, map: &Option<PassPhotons>| {
+                if let (Some(stats), Some(stage), Some(map)) = (stats, stage, map) {
+                    stats.add(stage, map);
+                }
+            };
+        one(&mut stats.photons, &self.caustic, &maps.caustic);
+        one(&mut stats.indirect_photons, &self.indirect, &maps.indirect);
+    }
+}
+
+/// Of caustics, and of indirect light where photons find it.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct AllPhotons {
+    pub photons: Option<PhotonStats>,
+    pub indirect_photons: Option<PhotonStats>,
 }
 
 /// What the photons of all passes came to.

@@ -1,6 +1,6 @@
 //! What a render cost and counted, for people and machines.
 
-use super::PhotonStats;
+use super::AllPhotons;
 use crate::build::{Geometry, World};
 use crate::film::Film;
 use crate::math::Rare;
@@ -22,7 +22,8 @@ pub struct Stats {
     pub truncated_weight: f64,
     pub rare_events: Vec<RareEvent>,
     /// Without caustics: none.
-    pub photons: Option<PhotonStats>,
+    #[serde(flatten)]
+    pub photons: AllPhotons,
     pub memory: Memory,
     #[serde(rename = "scene_size")]
     pub scene: SceneSize,
@@ -71,7 +72,7 @@ impl Stats {
         plan: &Plan,
         film: &Film,
         world: &World,
-        photons: Option<PhotonStats>,
+        photons: AllPhotons,
     ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
@@ -94,9 +95,13 @@ impl Stats {
             truncated_paths: tally.cut.paths,
             truncated_weight: tally.cut.weight / (health.samples.max(1) as f64),
             rare_events: rare_events.collect(),
-            photons: None,
+            photons: AllPhotons::default(),
             memory: Memory {
-                photons_bytes: photons.as_ref().map_or(0, |p| p.map_bytes),
+                photons_bytes: [&photons.photons, &photons.indirect_photons]
+                    .into_iter()
+                    .flatten()
+                    .map(|p| p.map_bytes)
+                    .sum(),
                 geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()
                     + size_of_val(world.instances.as_slice()),
                 trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>()

@@ -2,7 +2,7 @@
 
 use super::bounds::Bound;
 use crate::build::{Geometry, Instance, World};
-use crate::math::Vec3;
+use crate::math::{Placement, Vec3};
 use crate::optics::Shape;
 
 /// Bounds that aiming tells apart; more casters than this are merged by nearness.
@@ -44,13 +44,19 @@ pub(super) fn of_instance(world: &World, instance: &Instance) -> Option<Bound> {
     let bound = Bound::of_aabb(&aabb);
     let Geometry::Shape(Shape::Sphere(sphere)) = geometry else { return Some(bound) };
     // An ellipsoid lies within the ball of its longest half-axis, which this bounds.
-    let m = instance.placement.world_from_object.matrix3;
-    let round = m.x_axis.length() == m.y_axis.length()
-        && m.y_axis.length() == m.z_axis.length()
-        && m.x_axis.dot(m.y_axis).abs() + m.y_axis.dot(m.z_axis).abs() + m.z_axis.dot(m.x_axis).abs()
-            <= 1e-12 * m.x_axis.length_squared();
-    let stretch = if round { m.x_axis.length() * (1.0 + 1e-12) } else { instance.placement.stretch() };
-    Some(bound.with_ball(instance.placement.point(sphere.center()), sphere.radius() * stretch))
+    let placement = &instance.placement;
+    let stretch = round_scale(placement).map_or(placement.stretch(), |scale| scale * (1.0 + 1e-12));
+    Some(bound.with_ball(placement.point(sphere.center()), sphere.radius() * stretch))
+}
+
+/// The scale of a placement that leaves spheres round.
+pub(super) fn round_scale(placement: &Placement) -> Option<f64> {
+    let m = placement.world_from_object.matrix3;
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
+    let size = x.length_squared();
+    let uneven = (size - y.length_squared()).abs() + (size - z.length_squared()).abs();
+    let skew = x.dot(y).abs() + y.dot(z).abs() + z.dot(x).abs();
+    (uneven + skew <= 1e-12 * size).then(|| size.sqrt())
 }
 
 /// At most `MOST` bounds of the same things, neighbours together.

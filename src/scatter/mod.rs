@@ -18,6 +18,7 @@ mod pilot;
 mod projection;
 mod source;
 mod surfaces;
+mod window;
 
 use crate::build::World;
 use crate::math::Health;
@@ -38,6 +39,8 @@ pub enum Store {
     Caustics,
     /// L D: what shadow rays find as well, to compare the two.
     Direct,
+    /// L (S|D)* D S* D: what diffuse surfaces have sent on, up to the plan's number of bounces.
+    Indirect,
 }
 
 /// Where photons are sent.
@@ -54,6 +57,7 @@ pub enum Aim {
 pub struct Emission {
     seed: u64,
     max_depth: u32,
+    bounces: u32,
     store: Store,
     sources: Vec<Source>,
     targets: Vec<Bound>,
@@ -124,8 +128,10 @@ impl Emission {
             })
             .collect();
         let mut emission = Emission {
-            seed: plan.seed,
+            // Photons of different kinds are independent.
+            seed: if store == Store::Indirect { mix(plan.seed ^ INDIRECT) } else { plan.seed },
             max_depth: plan.max_depth,
+            bounces: plan.bounces,
             store,
             sources,
             targets,
@@ -249,10 +255,12 @@ impl Emission {
     }
 
     fn walk<'a>(&'a self, world: &'a World) -> Walk<'a> {
-        Walk { world, store: self.store, max_depth: self.max_depth }
+        Walk { world, store: self.store, max_depth: self.max_depth, bounces: self.bounces }
     }
 }
 
 /// Dimensions of a photon's values: where it starts; a path's own follow.
 const WHERE: [u64; 2] = [0, 1];
 const OFFSET: u64 = u64::MAX;
+
+const INDIRECT: u64 = 0x1d1e_c7ed;

@@ -15,7 +15,7 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface, World};
+use crate::build::{Colour, Cone, Crossing, MediaSet, Met, Shading, Surface, World};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Health, Ray, Vec3};
 use crate::optics::Interface;
@@ -25,6 +25,8 @@ pub(super) struct Walk<'a> {
     pub world: &'a World,
     pub store: Store,
     pub max_depth: u32,
+    /// Diffuse surfaces that a path may be sent on by, at most.
+    pub bounces: u32,
 }
 
 /// What paths leave behind.
@@ -45,6 +47,12 @@ struct Path {
     depth: u32,
     /// Specular events.
     events: u32,
+    /// Diffuse surfaces that sent it on.
+    bounces: u32,
+    /// Surfaces met, all of them: what its random values are counted by.
+    vertex: u64,
+    /// µm, once something has dispersed.
+    wavelength: Option<f64>,
     falloff: Option<[f64; 3]>,
 }
 
@@ -61,9 +69,20 @@ struct Way {
 /// The ways on, in the order in which they are drawn.
 const MIRRORED: usize = 0;
 const REFRACTED: usize = 2;
+const SCATTERED: usize = 3;
+
+/// From this bounce on every path may end.
+const LONG: u32 = 16;
+const LONG_SURVIVAL: f64 = 0.95;
 
 /// The dimension of the first surface's draw; the next ones follow.
 const ROULETTE: u64 = 2;
+
+/// The dimension of the wavelength, far from those of any surface.
+const WAVELENGTH: u64 = 1 << 32;
+
+/// The dimension of the first diffuse surface's direction.
+const BOUNCE: u64 = 1 << 33;
 
 impl Walk<'_> {
     /// Follows one photon to its end.
@@ -71,7 +90,18 @@ impl Walk<'_> {
         sink.ledger.paths += 1;
         sink.ledger.emitted += start.power;
         let Start { ray, power, media, falloff, .. } = start;
-        let mut path = Path { ray, power, media, length: 0.0, depth: 0, events: 0, falloff };
+        let mut path = Path {
+            ray,
+            power,
+            media,
+            length: 0.0,
+            depth: 0,
+            events: 0,
+            bounces: 0,
+            vertex: 0,
+            wavelength: None,
+            falloff,
+        };
         let mut t_max = start.t_max;
         loop {
             sink.ledger.rays += 1;
@@ -88,6 +118,7 @@ impl Walk<'_> {
                 return;
             }
             path.depth += 1;
+            path.vertex += 1;
             if path.depth > self.max_depth {
                 sink.ledger.cut += path.power;
                 sink.ledger.cut_paths += 1;
@@ -127,8 +158,9 @@ impl Walk<'_> {
         }
         let km = shading.km.as_dvec3();
         let through = if crossing.is_some() { (1.0 - km) * shading.kt.as_dvec3() } else { DVec3::ZERO };
-        let on = km + through;
-        let specular = on != DVec3::ZERO && self.store == Store::Caustics;
+        let scattered = self.scattered(path, &shading, km, through, sequence);
+        let on = km + through + scattered.map_or(DVec3::ZERO, |(_, weight)| weight);
+        let specular = on != DVec3::ZERO && self.store != Store::Direct;
         let stored = self.stored(path, &surface, &shading, sink);
         let ended = if specular { path.power * (1.0 - on) } else { path.power };
         let account = if stored { &mut sink.ledger.stored } else { &mut sink.ledger.absorbed };
@@ -141,9 +173,33 @@ impl Walk<'_> {
                 crossing.as_ref(),
                 behind.is_some(),
                 [km, through],
+                scattered,
                 sequence,
                 sink,
             )
+    }
+
+    /// The direction in which a diffuse surface sends the path on, with its weight, where such paths are asked for.
+    fn scattered(
+        &self,
+        path: &Path,
+        shading: &Shading,
+        km: DVec3,
+        through: DVec3,
+        sequence: Sequence,
+    ) -> Option<(DVec3, DVec3)> {
+        if self.store != Store::Indirect || path.bounces >= self.bounces || shading.wo.dot(shading.ng) <= 0.0
+        {
+            return None;
+        }
+        let rest = (DVec3::ONE - km - through).max(DVec3::ZERO);
+        let base = rest.as_vec3() * shading.kd;
+        if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
+            return None;
+        }
+        let sequence = sequence.dimension(BOUNCE + path.vertex);
+        let (dir, weight) = shading.scattered(base, sequence.pair(), || sequence.dimension(0).value())?;
+        Some((dir, weight.as_dvec3()))
     }
 
     /// Whether a photon was stored.
@@ -151,6 +207,7 @@ impl Walk<'_> {
         let due = match self.store {
             Store::Caustics => path.events > 0,
             Store::Direct => path.events == 0,
+            Store::Indirect => path.bounces > 0,
         };
         let rest = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt);
         let receives = rest * shading.kd != Vec3::ZERO || shading.ks != Vec3::ZERO;
@@ -187,16 +244,26 @@ impl Walk<'_> {
         crossing: Option<&Crossing>,
         touches: bool,
         [km, through]: [DVec3; 2],
+        scattered: Option<(DVec3, DVec3)>,
         sequence: Sequence,
         sink: &mut Sink,
     ) -> bool {
+        let (out, diffuse) = scattered.unwrap_or_default();
+        let on = km + through + diffuse;
         let before = path.power;
-        let on = km + through;
-        let eta = crossing.map_or(1.0, |c| self.world.medium(&c.after).0 / self.world.medium(&path.media).0);
+        let u = || sequence.dimension(WAVELENGTH).value();
+        let (eta, colour) = crossing.map_or((1.0, Colour { um: path.wavelength, weight: Vec3::ONE }), |c| {
+            self.world.relative_ior(&path.media, &c.after, path.wavelength, u)
+        });
+        path.wavelength = colour.um;
+        path.power *= colour.weight.as_dvec3();
+        sink.ledger.roulette += (before - path.power) * on;
+        let before = path.power;
         let interface = shading.interface(eta);
         let f = interface.reflectance;
         let way = |weight| Way { weight, factor: 1.0, dir: None };
-        let mut ways = [way(km), way(through * f), way(through * (1.0 - f))];
+        let onward = Way { dir: scattered.map(|_| out), ..way(diffuse) };
+        let mut ways = [way(km), way(through * f), way(through * (1.0 - f)), onward];
         if shading.ns != shading.ng {
             self.bend(&mut ways, shading, eta, &interface, sink);
             let bent = ways.iter().map(|w| w.weight * w.factor).sum::<DVec3>() - on;
@@ -205,8 +272,10 @@ impl Walk<'_> {
         let total = before.element_sum();
         let chance = ways.map(|w| (before * w.weight).element_sum() * w.factor / total);
         let sum: f64 = chance.iter().sum();
+        // However white the scene, a long path may end.
+        let scale = sum.max(1.0) / if path.bounces > LONG { LONG_SURVIVAL } else { 1.0 };
         let expected = before * ways.iter().map(|w| w.weight * w.factor).sum::<DVec3>();
-        let mut u = sequence.dimension(ROULETTE + u64::from(path.depth)).value() * sum.max(1.0);
+        let mut u = sequence.dimension(ROULETTE + path.vertex).value() * scale;
         let drawn = chance.iter().position(|&c| {
             let here = u < c;
             u -= c;
@@ -216,7 +285,7 @@ impl Walk<'_> {
             sink.ledger.roulette += expected;
             return false;
         };
-        let probability = chance[i] / sum.max(1.0);
+        let probability = chance[i] / scale;
         path.power = before * ways[i].weight * (ways[i].factor / probability);
         sink.ledger.roulette += expected - path.power;
         let dir = ways[i].dir.or_else(|| self.direction(i, shading, eta, &interface, sink));
@@ -224,8 +293,11 @@ impl Walk<'_> {
             sink.ledger.absorbed += path.power;
             return false;
         };
-        let tolerance =
-            if i == MIRRORED { surface.p_error } else { crossing.map_or(surface.p_error, |c| c.tolerance) };
+        let tolerance = if i == MIRRORED || i == SCATTERED {
+            surface.p_error
+        } else {
+            crossing.map_or(surface.p_error, |c| c.tolerance)
+        };
         // From before an interface that touches something, so that what touches is met.
         let start = if touches && i == REFRACTED { Ray::reaching } else { Ray::leaving };
         path.ray = start(surface.p, tolerance, surface.ng, dir);
@@ -234,7 +306,12 @@ impl Walk<'_> {
         {
             path.media = crossing.after;
         }
-        path.events += 1;
+        if i == SCATTERED {
+            path.bounces += 1;
+            path.depth = 0;
+        } else {
+            path.events += 1;
+        }
         true
     }
 
@@ -254,10 +331,10 @@ impl Walk<'_> {
     }
 
     /// The factors of the ways on where the shading normal is bent; 0 for one that leads nowhere.
-    fn bend(&self, ways: &mut [Way; 3], shading: &Shading, eta: f64, interface: &Interface, sink: &mut Sink) {
+    fn bend(&self, ways: &mut [Way; 4], shading: &Shading, eta: f64, interface: &Interface, sink: &mut Sink) {
         let (ng, ns) = (shading.ng, shading.ns);
         for (i, way) in ways.iter_mut().enumerate().filter(|(_, w)| w.weight != DVec3::ZERO) {
-            way.dir = self.direction(i, shading, eta, interface, sink);
+            way.dir = way.dir.or_else(|| self.direction(i, shading, eta, interface, sink));
             way.factor = way.dir.map_or(0.0, |out| {
                 let factor = (shading.wo.dot(ns) * out.dot(ng)) / (shading.wo.dot(ng) * out.dot(ns));
                 if factor.is_finite() { factor.abs() } else { 0.0 }

@@ -40,6 +40,8 @@ pub(super) enum Kind {
     Ball {
         instance: u32,
         outwards: bool,
+        /// The placement's, where it leaves the sphere round.
+        scale: Option<f64>,
     },
     /// Any other placed shape.
     Shape {
@@ -121,7 +123,7 @@ impl Source {
         match domain {
             Domain::Directions(cell) => {
                 let dir = cell.sample(u[0]);
-                self.towards(world, dir, cell.solid_angle(), u[1])
+                self.towards(world, targets, dir, cell.solid_angle(), u[1])
             }
             Domain::Rectangle { min, max } => self.through(*min, *max, u[0]),
             Domain::Sky { target, corner, side } => {
@@ -131,7 +133,14 @@ impl Source {
         }
     }
 
-    fn towards(&self, world: &World, dir: DVec3, solid_angle: f64, u: [f64; 2]) -> Option<Start> {
+    fn towards(
+        &self,
+        world: &World,
+        targets: &[Bound],
+        dir: DVec3,
+        solid_angle: f64,
+        u: [f64; 2],
+    ) -> Option<Start> {
         match &self.kind {
             Kind::Point { position, intensity, falloff } => {
                 let power = *intensity * solid_angle;
@@ -142,10 +151,8 @@ impl Source {
                 let power = *intensity * (share * solid_angle);
                 (share > 0.0).then(|| self.start(world, Ray { origin: *position, dir }, power))
             }
-            Kind::Ball { instance, outwards } => {
-                self.from_ball(world, *instance, *outwards, dir, solid_angle, u)
-            }
-            Kind::Shape { instance } => self.from_shape(world, *instance, dir, solid_angle, u),
+            Kind::Ball { .. } => self.from_ball(world, targets, dir, solid_angle, u),
+            Kind::Shape { instance } => self.from_shape(world, targets, *instance, dir, solid_angle, u),
             Kind::Mesh { instance } => self.from_mesh(world, *instance, dir, solid_angle, u),
             Kind::Parallel { .. } | Kind::Sky => None,
         }
@@ -179,9 +186,10 @@ impl Kind {
                     return vec![Kind::Shape { instance }];
                 }
                 let binding = &world.bindings[world.instances[instance as usize].binding as usize];
-                let mut kinds = vec![Kind::Ball { instance, outwards: true }];
+                let scale = casters::round_scale(&world.instances[instance as usize].placement);
+                let mut kinds = vec![Kind::Ball { instance, outwards: true, scale }];
                 if world.materials[binding[0].0 as usize].emits_back {
-                    kinds.push(Kind::Ball { instance, outwards: false });
+                    kinds.push(Kind::Ball { instance, outwards: false, scale });
                 }
                 kinds
             }

@@ -4,10 +4,12 @@
 //! uniform over the disk perpendicular to it, in the sphere's own space as in the world, so that all
 //! photons of a direction weigh the same. From other surfaces by a point uniform in area.
 
-use super::source::{Source, Start};
+use super::bounds::Bound;
+use super::source::{Kind, Source, Start};
+use super::window::Window;
 use crate::build::{Geometry, World};
-use crate::math::{DVec3, Frame, Placement, Ray, robust, sampling};
-use crate::optics::{EmitterKind, Material, MaterialId, Shape, ShapeHit, TexturePoint};
+use crate::math::{DVec2, DVec3, Frame, Placement, Ray, robust, sampling};
+use crate::optics::{EmitterKind, Material, MaterialId, Quad, Shape, ShapeHit, Sphere, TexturePoint};
 use std::f64::consts::PI;
 
 /// A point on an emitting surface, in object space.
@@ -19,23 +21,24 @@ struct Point {
 }
 
 impl Source {
-    /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω.
+    /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω, or that of
+    /// the window from which targets can be met.
     pub(super) fn from_ball(
         &self,
         world: &World,
-        index: u32,
-        outwards: bool,
+        targets: &[Bound],
         dir: DVec3,
         solid_angle: f64,
         u: [f64; 2],
     ) -> Option<Start> {
+        let Kind::Ball { instance: index, outwards, scale } = self.kind else { return None };
         let instance = &world.instances[index as usize];
         let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(index) else { return None };
         let placement = &instance.placement;
         let along = placement.local_vector(dir);
         let length = along.length();
         let frame = Frame::around(along / length);
-        let d = sampling::disk(u);
+        let (d, share) = in_disk(&frame, targets, placement, sphere, scale, u)?;
         let height = (1.0 - d.length_squared()).max(0.0).sqrt();
         let n = frame.to_world(d.extend(if outwards { height } else { -height }));
         let material = material(world, world.bindings[instance.binding as usize][0]);
@@ -48,7 +51,7 @@ impl Source {
             TexturePoint::at(Default::default(), p)
         };
         let point = Point { p, p_error: shape.p_error(), ng: n, texture };
-        let across = PI * sphere.radius() * sphere.radius() * placement.det().abs() * length;
+        let across = share * sphere.radius() * sphere.radius() * placement.det().abs() * length;
         let mut start = self.leaving(world, placement, material, &point, dir, solid_angle * across)?;
         if !outwards && !instance.visible {
             // Rays do not meet the lamp, but its light does: from outside only its first surface shines.
@@ -61,6 +64,7 @@ impl Source {
     pub(super) fn from_shape(
         &self,
         world: &World,
+        targets: &[Bound],
         index: u32,
         dir: DVec3,
         solid_angle: f64,
@@ -69,13 +73,23 @@ impl Source {
         let instance = &world.instances[index as usize];
         let Geometry::Shape(shape) = world.geometry(index) else { return None };
         let placement = &instance.placement;
+        let (u, share) = match shape {
+            Shape::Quad(quad) => {
+                let at = |u| placement.point(quad_point(quad, u));
+                let corner = at([0.0, 0.0]);
+                let edges = [at([1.0, 0.0]) - corner, at([0.0, 1.0]) - corner];
+                let window = Window::of_parallelogram(targets, corner, edges, dir)?;
+                (window.at(u).to_array(), window.area())
+            }
+            _ => (u, 1.0),
+        };
         let sample = shape.sample_area(u);
         let material = material(world, world.bindings[instance.binding as usize][0]);
         let cos = placement.unit_normal(sample.ng).dot(dir);
         if cos == 0.0 || (cos < 0.0 && !material.emits_back) {
             return None;
         }
-        let area = placement.area_factor(sample.ng) / sample.pdf;
+        let area = share * placement.area_factor(sample.ng) / sample.pdf;
         let point = Point {
             p: sample.p,
             p_error: shape.p_error(),
@@ -140,6 +154,32 @@ impl Source {
         let ng = placement.unit_normal(point.ng);
         Some(self.start(world, Ray::leaving(placement.point(point.p), p_error, ng, dir), power))
     }
+}
+
+/// A point of the unit disk that is the sphere as seen along `frame.n`, and the area that it stands for.
+fn in_disk(
+    frame: &Frame,
+    targets: &[Bound],
+    placement: &Placement,
+    sphere: &Sphere,
+    scale: Option<f64>,
+    u: [f64; 2],
+) -> Option<(DVec2, f64)> {
+    if let Some(scale) = scale {
+        let turned = |v: DVec3| placement.vector(v) / scale;
+        let seen = Frame { s: turned(frame.s), t: turned(frame.t), n: turned(frame.n) };
+        let center = placement.point(sphere.center());
+        let window = Window::of_ball(targets, center, scale * sphere.radius(), &seen)?;
+        if window.area() < PI {
+            let d = window.at(u);
+            return (d.length_squared() < 1.0).then(|| (d, window.area()));
+        }
+    }
+    Some((sampling::disk(u), PI))
+}
+
+fn quad_point(quad: &Quad, u: [f64; 2]) -> DVec3 {
+    Shape::Quad(*quad).sample_area(u).p
 }
 
 fn material(world: &World, id: MaterialId) -> &Material {

@@ -82,6 +82,8 @@ pub struct Tracer<'a> {
     pub reference_level: f32,
     /// The photons of the passes that are traced; none where the plan has no caustics.
     pub caustics: Option<Caustics<'a>>,
+    /// Those of indirect light, where it is found by photons.
+    pub indirect: Option<Caustics<'a>>,
 }
 
 /// Adds the passes of `passes` to a tile, in order.

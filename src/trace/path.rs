@@ -42,6 +42,8 @@ pub(super) struct Branch {
     pub depth: u32,
     /// Diffuse surfaces behind it.
     pub bounces: u32,
+    /// µm, once something has dispersed.
+    pub wavelength: Option<f64>,
     pub sequence: Sequence,
     pub class: Class,
 }
@@ -55,6 +57,7 @@ const REFRACTED: u64 = 5;
 
 pub(super) const BOUNCE: u64 = 7;
 pub(super) const COVERAGE: u64 = 8;
+const WAVELENGTH: u64 = 9;
 
 /// Dimensions of a camera sample.
 const LENS: u64 = 6;
@@ -98,6 +101,7 @@ impl Tracer<'_> {
             cone: Cone { width: 0.0, spread: camera.pixel_spread() },
             depth: 0,
             bounces: 0,
+            wavelength: None,
             sequence,
             class: Class::Direct,
         };
@@ -183,18 +187,25 @@ impl Tracer<'_> {
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
     ) {
-        let (near, _) = self.world.medium(&branch.media);
-        let (far, _) = self.world.medium(&crossing.after);
-        let eta = far / near;
+        let u = || branch.sequence.dimension(WAVELENGTH).value();
+        let (eta, colour) = self.world.relative_ior(&branch.media, &crossing.after, branch.wavelength, u);
         let interface = shading.interface(eta);
-        let weight = (Vec3::ONE - shading.km) * shading.kt;
+        let weight = (Vec3::ONE - shading.km) * shading.kt * colour.weight;
+        let wavelength = colour.um;
         let cone = branch.cone.after(surface.t);
         if interface.reflectance > 0.0 {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.reflection += 1;
             let weight = weight * interface.reflectance as f32;
-            self.push(Branch { ray, cone, ..*branch }, weight, REFLECTED, Class::Reflection, todo, tally);
+            self.push(
+                Branch { ray, cone, wavelength, ..*branch },
+                weight,
+                REFLECTED,
+                Class::Reflection,
+                todo,
+                tally,
+            );
         }
         if interface.reflectance < 1.0 {
             let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
@@ -203,7 +214,8 @@ impl Tracer<'_> {
             let ray = start(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.refraction += 1;
             let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
-            let next = Branch { ray, media: crossing.after, cone: cone.refracted(eta), ..*branch };
+            let next =
+                Branch { ray, media: crossing.after, cone: cone.refracted(eta), wavelength, ..*branch };
             self.push(next, weight, REFRACTED, Class::Refraction, todo, tally);
         }
     }
@@ -274,6 +286,11 @@ impl Tracer<'_> {
                         branch.throughput * self.photon_dots(caustics, branch, surface, shading);
                 }
             }
+        }
+        if let Some(indirect) = &self.indirect {
+            let gathered = self.caustic(indirect, branch, base, surface, shading, tally).radiance;
+            sample.indirect += branch.throughput * gathered;
+            return radiance + gathered;
         }
         if branch.bounces < self.plan.bounces
             && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)

@@ -68,9 +68,8 @@ pub fn estimate(values: impl IntoIterator<Item = f64>) -> Estimate {
 
 /// Power of the photons that `keep` keeps, in the red channel, pass by pass.
 pub fn power(passes: &[Scattered], keep: impl Fn(&Photon) -> bool) -> Estimate {
-    let sum = |photons: &[Photon]| {
-        photons.iter().filter(|p| keep(p)).map(|p| f64::from(p.power.x)).sum::<f64>()
-    };
+    let sum =
+        |photons: &[Photon]| photons.iter().filter(|p| keep(p)).map(|p| f64::from(p.power.x)).sum::<f64>();
     estimate(passes.iter().map(|pass| sum(&pass.photons)))
 }
 

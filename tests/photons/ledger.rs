@@ -39,7 +39,9 @@ fn emitted_is_stored_and_absorbed_and_escaped_and_cut() {
         assert_eq!(l.bent, DVec3::ZERO);
         assert_eq!(l.photons, pass.photons.len() as u64);
         assert!(l.paths <= pass.emitted && l.paths > 30_000 && l.rays > l.paths);
-        assert!(l.stored.min_element() > 0.0 && l.absorbed.min_element() > 0.0 && l.escaped.min_element() > 0.0);
+        assert!(
+            l.stored.min_element() > 0.0 && l.absorbed.min_element() > 0.0 && l.escaped.min_element() > 0.0
+        );
         assert!(l.cut.max_element() < 1e-3 * l.emitted.max_element());
         let arrived: DVec3 = pass.photons.iter().map(|p| p.power.as_dvec3()).sum();
         assert!((arrived / l.arrived - 1.0).abs().max_element() < 1e-5);

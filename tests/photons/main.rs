@@ -4,6 +4,7 @@
 
 mod aimed;
 mod direct;
+mod directions;
 mod glass;
 mod lab;
 mod ledger;

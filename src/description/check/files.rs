@@ -1,34 +1,37 @@
 //! The files that a scene names must be there and readable.
 
 use super::{Checker, Kind, Severity};
-use crate::description::assets;
 use crate::description::suggest::nearest;
+use crate::description::tree::Path;
+use std::collections::HashMap;
 use std::path::Path as FilePath;
 
-pub(super) fn check(c: &mut Checker) {
-    let mut scene = c.scene.clone();
-    let mut named = Vec::new();
-    assets::for_each(&mut scene, &mut |path, place| named.push((path.clone(), place.clone())));
-    for (path, place) in named {
+pub(super) fn check(c: &mut Checker, files: &[(String, Path)]) {
+    let mut problems: HashMap<&str, Option<String>> = HashMap::new();
+    for (path, place) in files {
         if path.is_empty() {
-            c.error(&place, "a file's path cannot be empty");
+            c.error(place, "a file's path cannot be empty");
             continue;
         }
-        let file = c.folder.join(&path);
-        let problem = match std::fs::metadata(&file) {
-            Ok(meta) if meta.is_dir() => Some("it is a folder".to_owned()),
-            Ok(_) => std::fs::File::open(&file).err().map(|e| e.to_string()),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                Some("there is no such file".to_owned())
-            }
-            Err(error) => Some(error.to_string()),
-        };
-        if let Some(problem) = problem {
-            let near = neighbour(&file).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
-            let message = format!("`{}` cannot be read: {problem}{near}", file.display());
-            c.report(Severity::Error, Kind::Io, &[&place], message, None);
+        let problem = problems.entry(path).or_insert_with(|| problem(&c.folder.join(path)));
+        if let Some(message) = problem.clone() {
+            c.report(Severity::Error, Kind::Io, &[place], message, None);
         }
     }
+}
+
+/// Why a file cannot be read.
+fn problem(file: &FilePath) -> Option<String> {
+    let problem = match std::fs::metadata(file) {
+        Ok(meta) if meta.is_dir() => "it is a folder".to_owned(),
+        // to open anything else, such as a pipe, could wait forever
+        Ok(meta) if !meta.is_file() => "it is not a regular file".to_owned(),
+        Ok(_) => std::fs::File::open(file).err()?.to_string(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        Err(error) => error.to_string(),
+    };
+    let near = neighbour(file).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
+    Some(format!("`{}` cannot be read: {problem}{near}", file.display()))
 }
 
 /// A file of the same folder with nearly that name.

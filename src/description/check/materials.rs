@@ -3,7 +3,7 @@
 use super::{Checker, energy};
 use crate::description::suggest::{listed, question};
 use crate::description::tree::{Path, number};
-use crate::description::{Ior, Material, NAMED_IOR, Rgb, Source, Texture, TextureRef};
+use crate::description::{Dispersion, Ior, Material, NAMED_IOR, Rgb, Source, Texture, TextureRef};
 
 pub(super) fn check(c: &mut Checker) {
     for (name, material) in c.scene.materials.iter() {
@@ -41,6 +41,15 @@ fn check_material(c: &mut Checker, path: &Path, material: &Material) {
             c.report(super::Severity::Error, super::Kind::Invalid, &[&path.key("ior")], message, help);
         }
         _ => {}
+    }
+    match material.dispersion {
+        Some(Dispersion::Abbe(v)) => c.within(&path.key("dispersion").key("abbe"), v, 5.0, 200.0),
+        Some(Dispersion::Cauchy(b)) => c.within(&path.key("dispersion").key("cauchy"), b, 0.0, 0.1),
+        None => {}
+    }
+    if material.dispersion.is_some() && material.transmission.is_zero() {
+        let message = "`dispersion` needs `transmission` above 0";
+        c.error_about(&[&path.key("dispersion"), &path.key("transmission")], message);
     }
     c.colour(&path.key("absorption"), &material.absorption);
     if !material.absorption.is_zero() && material.transmission.is_zero() {

@@ -13,18 +13,21 @@ mod usage;
 
 use super::diagnostic::{Diagnostic, Kind, Report, Severity};
 use super::source::Sources;
-use super::tree::{Node, Path, number};
-use super::{Object, Scene};
+use super::tree::{Index, Path, number};
+use super::{Object, Scene, Shape};
+use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
-/// All that is wrong or doubtful with a scene whose tree is `root`; file paths in it are relative to
-/// `folder`. In an `incomplete` scene (an included file is missing) no names are looked up; only a `sound` one, without mistakes so far, can give rise to doubts.
+/// All that is wrong or doubtful with a scene whose tree is `root`; the paths of `files`, which it
+/// names, are relative to `folder`. In an `incomplete` scene (an included file is missing) no names are looked up; only a
+/// `sound` one, without mistakes so far, can give rise to doubts.
 pub(super) fn check(
     scene: &Scene,
-    root: &Node,
+    root: &Index,
     sources: &Sources,
     folder: &FilePath,
+    files: &[(String, Path)],
     incomplete: bool,
     sound: bool,
 ) -> Vec<Diagnostic> {
@@ -37,20 +40,19 @@ pub(super) fn check(
         textures: scene.textures.names().collect(),
         materials: scene.materials.names().collect(),
         definitions: scene.definitions.iter().collect(),
-        objects: scene
-            .objects
-            .iter()
-            .enumerate()
-            .filter_map(|(i, o)| Some((o.name.as_deref()?, i)))
-            .collect(),
+        objects: HashMap::new(),
+        comparisons: MOST_COMPARISONS,
     };
+    for object in &scene.objects {
+        named(object, &mut checker.objects);
+    }
     settings::check(&mut checker);
     photons::check(&mut checker);
     materials::textures(&mut checker);
     materials::check(&mut checker);
     lights::check(&mut checker);
     objects::check(&mut checker);
-    files::check(&mut checker);
+    files::check(&mut checker, files);
     if !incomplete {
         references::check(&mut checker);
         // a wrong name makes another one unused: nothing that needs saying
@@ -63,15 +65,29 @@ pub(super) fn check(
 
 struct Checker<'a> {
     scene: &'a Scene,
-    root: &'a Node,
+    root: &'a Index<'a>,
     sources: &'a Sources,
     folder: &'a FilePath,
     diagnostics: Vec<Diagnostic>,
     textures: HashSet<&'a str>,
     materials: HashSet<&'a str>,
     definitions: HashMap<&'a str, &'a Object>,
-    /// Those of the top level, by name.
-    objects: HashMap<&'a str, usize>,
+    /// Placed objects by name, those within groups too.
+    objects: HashMap<&'a str, &'a Object>,
+    /// How many names may still be compared with misspelt ones.
+    comparisons: usize,
+}
+
+/// A tenth of a second's worth.
+const MOST_COMPARISONS: usize = 100_000;
+
+fn named<'a>(object: &'a Object, found: &mut HashMap<&'a str, &'a Object>) {
+    if let Some(name) = &object.name {
+        found.entry(name).or_insert(object);
+    }
+    if let Shape::Group { objects } = &object.shape {
+        objects.iter().for_each(|object| named(object, found));
+    }
 }
 
 impl Checker<'_> {
@@ -135,6 +151,11 @@ impl Checker<'_> {
     fn direction(&mut self, path: &Path, v: super::Vector) {
         if v == [0.0; 3] {
             self.error(path, "a direction cannot be (0, 0, 0)");
+        } else if DVec3::from(v).try_normalize().is_none() {
+            self.error(
+                path,
+                "a direction this long or short cannot be told: its square leaves the range of numbers",
+            );
         }
     }
 }

@@ -1,14 +1,15 @@
 //! Shapes, transforms, scatter; names of objects.
 
 use super::Checker;
-use crate::description::tree::{Path, Step, number};
+use crate::description::tree::{Path, number};
 use crate::description::{Object, Scale, Scatter, Shape, Transform};
-use glam::{DMat3, DVec3};
+use crate::math::Placement;
+use glam::{DAffine3, DMat3, DVec3};
 use std::collections::HashMap;
 
 /// The place of `objects`.
 pub(super) fn list() -> Path {
-    Path(vec![Step::Key("objects".into())])
+    Path::of("objects")
 }
 
 pub(super) fn check(c: &mut Checker) {
@@ -147,7 +148,8 @@ fn transforms(c: &mut Checker, path: &Path, steps: &[Transform]) {
         }
         product = matrix * product;
     }
-    if sound && singular(&product) {
+    // the second is what placing asks for: a volume within the range of numbers
+    if sound && (singular(&product) || Placement::new(DAffine3::from_mat3(product)).is_none()) {
         c.error(path, "together these steps flatten the object to nothing");
     }
 }

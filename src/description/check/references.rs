@@ -50,7 +50,9 @@ pub(super) fn check(c: &mut Checker) {
 
 fn missing<'a>(c: &mut Checker, place: &Path, what: &str, name: &str, known: impl Iterator<Item = &'a str>) {
     let known: Vec<&str> = known.collect();
-    let near = nearest(name, known.iter().copied());
+    let compared = known.len() <= c.comparisons;
+    let near = if compared { nearest(name, known.iter().copied()) } else { None };
+    c.comparisons = c.comparisons.saturating_sub(known.len());
     let help = match near {
         None if known.is_empty() => Some(format!("the scene has no {what}s")),
         None => Some(format!("known: {}", listed(known.iter().copied()))),
@@ -114,7 +116,7 @@ fn names_of(c: &mut Checker, path: &Path, object: &Object) {
 
 fn surface(c: &mut Checker, place: &Path, over: &str) {
     let scene = c.scene;
-    let object = c.objects.get(over).map(|i| &scene.objects[*i]);
+    let object = c.objects.get(over).copied();
     let definition = c.definitions.get(over).copied();
     match (object, definition) {
         (Some(_), Some(_)) => {
@@ -129,8 +131,10 @@ fn surface(c: &mut Checker, place: &Path, over: &str) {
             }
         }
         (None, None) => {
-            let objects = scene.objects.iter().filter_map(|object| object.name.as_deref());
-            missing(c, place, "object or definition", over, objects.chain(scene.definitions.names()));
+            let mut objects: Vec<&str> = c.objects.keys().copied().collect();
+            objects.sort_unstable();
+            let known = objects.into_iter().chain(scene.definitions.names());
+            missing(c, place, "object or definition", over, known);
         }
     }
 }
@@ -148,13 +152,27 @@ fn uses<'a>(object: &'a Object, found: &mut Vec<&'a str>) {
     }
 }
 
+/// Objects that have a name, with their places: this one and those within it.
+fn named<'a>(object: &'a Object, place: &Path, found: &mut Vec<(&'a str, &'a Object, Path)>) {
+    if let Some(name) = &object.name {
+        found.push((name, object, place.clone()));
+    }
+    if let Shape::Group { objects } = &object.shape {
+        let list = place.key("shape").key("group").key("objects");
+        for (i, object) in objects.iter().enumerate() {
+            named(object, &list.index(i), found);
+        }
+    }
+}
+
 /// Reports definitions and named objects that contain themselves; whether there are any.
 fn cycles(c: &mut Checker) -> bool {
     let scene = c.scene;
-    let objects = scene.objects.iter().enumerate();
-    let named = objects.filter_map(|(i, o)| o.name.as_deref().map(|name| (name, o, list().index(i))));
     let definitions = scene.definitions.iter().map(|(name, o)| (name, o, Path::of("definitions").key(name)));
-    let nodes: Vec<(&str, &Object, Path)> = definitions.chain(named).collect();
+    let mut nodes: Vec<(&str, &Object, Path)> = definitions.collect();
+    for (i, object) in scene.objects.iter().enumerate() {
+        named(object, &list().index(i), &mut nodes);
+    }
     let index: std::collections::HashMap<&str, usize> =
         nodes.iter().enumerate().rev().map(|(i, (name, ..))| (*name, i)).collect();
     let edges: Vec<Vec<usize>> = nodes
@@ -218,6 +236,8 @@ fn has_material<'a>(
         }
         Shape::Instance { of } => placed(c, of),
         Shape::Scatter(scatter) => scatter.of.iter().for_each(|of| placed(c, of)),
+        // whether these are all the parts that there are, only the file can tell
+        Shape::Mesh { parts, .. } if !parts.is_empty() => {}
         _ if !given => {
             let help =
                 c.scene.materials.names().next().map(|name| format!("add `material`, such as {name:?}"));

@@ -55,7 +55,7 @@ fn collect<'a>(object: &'a Object, materials: &mut HashSet<&'a str>, definitions
 }
 
 fn unused(c: &mut Checker, map: &str, what: &str, used: &HashSet<&str>) {
-    let entries = c.root.entry(map).map_or(&[][..], |entry| entry.node.entries());
+    let entries = c.root.root.entry(map).map_or(&[][..], |entry| entry.node.entries());
     let own = entries.iter().filter(|entry| entry.key_span.source == 0 && !used.contains(entry.key.as_str()));
     for entry in own.take(Report::MOST) {
         let message = format!("the {what} is not used");

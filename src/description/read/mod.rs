@@ -10,11 +10,13 @@ mod toml;
 
 use super::check;
 use super::diagnostic::{Diagnostic, Kind, Report, Severity};
+use super::places::Places;
 use super::source::{self, Source, Sources};
-use super::tree::{Node, Span};
+use super::tree::{Index, Node, Span};
 use super::{Scene, assets};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The two languages of scene files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +50,7 @@ pub struct Loaded {
     pub folder: PathBuf,
     /// SHA-256 of what the scene says, whatever the format, the layout or the folder it is read from.
     pub hash: [u8; 32],
+    pub(super) places: Arc<Places>,
 }
 
 /// Reads and checks a scene file, after `overrides` (`path.to.key=value`) have been applied to it.
@@ -86,7 +89,7 @@ pub(crate) fn convert_options() -> ::ron::Options {
 
 /// The tree of RON text that was written by us.
 pub(crate) fn tree_of_ron(text: &str) -> Result<Node, String> {
-    ron::parse(text, 0).map_err(|errors| errors[0].1.clone())
+    ron::own(text, 0).map_err(|errors| errors[0].1.clone())
 }
 
 fn open(path: &Path) -> Result<(String, Format), Report> {
@@ -158,6 +161,7 @@ impl Reading {
         format: Format,
         overrides: &[String],
     ) -> Result<Loaded, Report> {
+        let mut spans = Vec::new();
         let scene = self.parse(Self::main_source(file, text, format)).and_then(|mut root| {
             include::merge(&mut self, &mut root);
             set::apply(&mut self, &mut root, overrides);
@@ -165,30 +169,27 @@ impl Reading {
             scene.include.clear();
             // a single file's paths need no change
             let included = self.sources.files().len() > 1;
+            let index = Index::new(&root);
+            let mut named = Vec::new();
             assets::for_each(&mut scene, &mut |path, place| {
-                if !included {
-                    return;
+                if included {
+                    rebase(path, &self.sources.get(index.find(place).node.span.source).base);
                 }
-                let base = &self.sources.get(root.find(place).node.span.source).base;
-                rebase(path, base);
+                named.push((path.clone(), place.clone()));
             });
-            let folder = &self.folder;
-            let sound = self.diagnostics.is_empty();
-            self.diagnostics.extend(check::check(
-                &scene,
-                &root,
-                &self.sources,
-                folder,
-                self.incomplete,
-                sound,
-            ));
+            let (folder, sound) = (&self.folder, self.diagnostics.is_empty());
+            let found = check::check(&scene, &index, &self.sources, folder, &named, self.incomplete, sound);
+            self.diagnostics.extend(found);
+            spans = Places::find(&scene, &index);
             Some(scene)
         });
         let mut scene = self.finish(scene)?;
         let hash = hash(&scene);
         assets::for_each(&mut scene, &mut |path, _| rebase(path, &self.folder));
         let warnings = Report::new(self.diagnostics).diagnostics;
-        Ok(Loaded { scene, warnings, files: self.sources.files(), folder: self.folder, hash })
+        let files = self.sources.files();
+        let places = Arc::new(Places::new(self.sources, spans));
+        Ok(Loaded { scene, warnings, files, folder: self.folder, hash, places })
     }
 
     /// The scene if nothing is wrong with it.

@@ -22,7 +22,7 @@ pub(super) fn read<'s, T: for<'a> Deserialize<'a>>(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<T> {
     let mut recovery = Recovery { sources, diagnostics };
-    recovery.before_types(root, &Path::default());
+    recovery.before_types(root, &Trail::Root);
     let size: usize = sources.sizes().sum();
     let most = (MAX_MISTAKES * LARGE_BYTES / size.max(LARGE_BYTES)).max(MIN_MISTAKES);
     for _ in 0..most {
@@ -34,6 +34,23 @@ pub(super) fn read<'s, T: for<'a> Deserialize<'a>>(
     let message = format!("there may be more mistakes: reading stopped after {most}");
     recovery.report(root.span, &Path::default(), message, None);
     None
+}
+
+/// A path that costs nothing until it is asked for.
+enum Trail<'a> {
+    Root,
+    Key(&'a Trail<'a>, &'a str),
+    Item(&'a Trail<'a>, usize),
+}
+
+impl Trail<'_> {
+    fn path(&self) -> Path {
+        match self {
+            Trail::Root => Path::default(),
+            Trail::Key(before, key) => before.path().key(key),
+            Trail::Item(before, index) => before.path().index(*index),
+        }
+    }
 }
 
 struct Recovery<'s, 'd> {
@@ -53,45 +70,56 @@ impl Recovery<'_, '_> {
     }
 
     /// What no type can see: names given twice, and numbers that are not finite.
-    fn before_types(&mut self, node: &mut Node, path: &Path) {
+    fn before_types(&mut self, node: &mut Node, trail: &Trail) {
         match &mut node.value {
             Value::Float(x) if !x.is_finite() => {
                 let what = if x.is_nan() { "not a number" } else { "infinite or beyond 1.8e308" };
-                self.report(node.span, path, format!("a finite number is expected, this is {what}"), None);
+                let message = format!("a finite number is expected, this is {what}");
+                self.report(node.span, &trail.path(), message, None);
                 node.value = Value::Hole;
             }
             Value::Seq(items) => {
                 for (i, item) in items.iter_mut().enumerate() {
-                    self.before_types(item, &path.index(i));
+                    self.before_types(item, &Trail::Item(trail, i));
                 }
             }
             Value::Tagged(tag, _, content) => {
-                let inner = path.key(tag);
+                let inner = Trail::Key(trail, tag);
                 match &mut content.value {
                     Value::Seq(items) if items.len() == 1 => self.before_types(&mut items[0], &inner),
                     _ => self.before_types(content, &inner),
                 }
             }
             Value::Map(entries, _) => {
-                let mut first: HashMap<String, Span> = HashMap::new();
-                entries.retain(|entry| match first.get(&entry.key) {
-                    None => {
-                        first.insert(entry.key.clone(), entry.key_span);
-                        true
-                    }
-                    Some(&span) => {
-                        let place = self.sources.place(span);
-                        let message = format!("`{}` is given twice; the first is at {place}", entry.key);
-                        self.report(entry.key_span, path, message, None);
-                        false
-                    }
-                });
-                for entry in entries {
-                    self.before_types(&mut entry.node, &path.key(&entry.key));
+                self.drop_doubles(entries, trail);
+                for Entry { key, node, .. } in entries {
+                    self.before_types(node, &Trail::Key(trail, key));
                 }
             }
             _ => {}
         }
+    }
+
+    /// Of entries with the same key the first stays, the others are reported.
+    fn drop_doubles(&mut self, entries: &mut Vec<Entry>, trail: &Trail) {
+        // Most maps are a few fields, which need no table to be compared.
+        let few = entries.len() <= 16;
+        if few && (1..entries.len()).all(|i| entries[..i].iter().all(|e| e.key != entries[i].key)) {
+            return;
+        }
+        let mut first: HashMap<String, Span> = HashMap::new();
+        entries.retain(|entry| match first.get(&entry.key) {
+            None => {
+                first.insert(entry.key.clone(), entry.key_span);
+                true
+            }
+            Some(&span) => {
+                let place = self.sources.place(span);
+                let message = format!("`{}` is given twice; the first is at {place}", entry.key);
+                self.report(entry.key_span, &trail.path(), message, None);
+                false
+            }
+        });
     }
 
     /// Reports the error and changes the tree so that it does not come again.
@@ -197,12 +225,14 @@ fn walk<'a>(root: &'a mut Node, at: &[usize]) -> Option<(&'a mut Node, Path)> {
     let mut content_of_tag = false;
     for &index in at.iter().rev() {
         let step = match &node.value {
-            Value::Map(entries, _) => Some(Step::Key(entries.get(index)?.key.clone())),
-            Value::Tagged(tag, ..) if tag != "Some" => Some(Step::Key(tag.clone())),
+            Value::Map(entries, _) => Some(Step::Key(entries.get(index)?.key.as_str().into())),
+            Value::Tagged(tag, ..) if tag != "Some" => Some(Step::Key(tag.as_str().into())),
             Value::Seq(items) if !(content_of_tag && items.len() == 1) => Some(Step::Index(index)),
             _ => None,
         };
-        path.0.extend(step);
+        if let Some(step) = step {
+            path = path.then(step);
+        }
         content_of_tag = matches!(node.value, Value::Tagged(..));
         node = node.child_mut(index)?;
     }

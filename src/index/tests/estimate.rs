@@ -1,6 +1,7 @@
 //! The density estimate where the answer is known.
 
 use super::*;
+use crate::scatter::Photon;
 use std::f64::consts::PI;
 
 const KERNELS: [Kernel; 3] = [Kernel::Disc, Kernel::Cone { kappa: 1.1 }, Kernel::Epanechnikov];

@@ -7,6 +7,7 @@ mod tree;
 use super::*;
 use crate::math::Vec3;
 use crate::math::random::{Counter, Stage};
+use crate::scatter::Photon;
 
 /// A photon of one watt a channel from straight above a surface.
 fn photon(position: Vec3, normal: Vec3) -> Photon {

@@ -2,6 +2,7 @@
 //! corrects edges; the raw estimate is held to what it must be there.
 
 use super::*;
+use crate::scatter::Photon;
 
 fn estimate(map: &PhotonMap, p: Vec3, n: Vec3, radius: f32) -> Gathered {
     map.gather(&Query { p, n, radius: Radius::Fixed(radius) }, Kernel::Disc, |_| Vec3::ONE)

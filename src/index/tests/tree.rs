@@ -2,6 +2,7 @@
 //! threads.
 
 use super::*;
+use crate::scatter::Photon;
 
 fn random_vec(random: &mut Counter) -> Vec3 {
     Vec3::from_array([(); 3].map(|()| random.value() as f32))

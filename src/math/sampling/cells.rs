@@ -191,12 +191,15 @@ mod tests {
         }
     }
 
+    /// Halving the longest edge keeps every angle above half of the smallest that there was (Rosenberg &
+    /// Stenger, SIAM J. Numer. Anal. 12, 1975), here 30° and more: a triangle of 30°, 30° and 120°, the worst
+    /// of all such, fills 1/7.26 of the disk through its corners.
     #[test]
     fn cells_stay_compact_when_they_are_halved() {
         for cell in after(12) {
             let (_, cos) = cell.cone();
             let cap = 2.0 * PI * (1.0 - cos);
-            assert!(cap < 5.0 * cell.solid_angle(), "{}", cap / cell.solid_angle());
+            assert!(cap < 7.26 * cell.solid_angle(), "{}", cap / cell.solid_angle());
         }
     }
 
