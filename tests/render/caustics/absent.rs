@@ -5,7 +5,7 @@ use terrarium::render::Aov;
 
 fn scene(photons: &str, materials: &str, lights: &str, objects: &str) -> Shot {
     shot(format!(
-        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 24, height: 16), indirect: true, photons: {photons},
+        r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 24, height: 16), indirect: true, indirect_by: paths, photons: {photons},
         materials: {{ "white": (diffuse: 0.7, specular: 0.1), {materials} }}, lights: {{ {lights} }},
         objects: [(shape: quad(size: (9, 9)), material: "white"), {objects}])"#
     ))
@@ -18,7 +18,7 @@ const LAMPS: &str = r#""a": point(position: (0, 3, 0), intensity: 5), "b": spher
 
 #[track_caller]
 fn assert_no_photons(picture: &Picture) {
-    assert!(picture.rendered.stats.photons.is_none());
+    assert!(picture.rendered.stats.photons.photons.is_none());
     assert_eq!(picture.rendered.stats.memory.photons_bytes, 0);
     for layer in ["caustic", "photons"] {
         for channel in ["R", "G", "B"] {
@@ -42,7 +42,7 @@ fn photons_that_are_off_leave_plain_shadows() {
     let picture = scene("off", r#""glass": (transmission: 1)"#, LAMPS, ball).render();
     assert_no_photons(&picture);
     let on = scene("progressive()", r#""glass": (transmission: 1)"#, LAMPS, ball).render();
-    assert!(on.rendered.stats.photons.as_ref().is_some_and(|p| p.stored > 1000));
+    assert!(on.rendered.stats.photons.photons.as_ref().is_some_and(|p| p.stored > 1000));
     assert!(on.mean() > picture.mean());
 }
 
@@ -61,11 +61,11 @@ fn a_light_that_shines_away_from_all_glass_sends_no_photons() {
         "b": point(position: (3, 3, 0), intensity: 1)"#;
     let ball = r#"(shape: sphere(center: (0, 0.5, 0), radius: 0.5), material: "glass")"#;
     let picture = scene("progressive()", r#""glass": (transmission: 1)"#, spot, ball).render();
-    let lights = picture.rendered.stats.photons.expect("one light reaches the ball").lights;
+    let lights = picture.rendered.stats.photons.photons.expect("one light reaches the ball").lights;
     let share = |name: &str| lights.iter().find(|l| l.name == name).map_or(f64::NAN, |l| l.share);
     assert!(share("a") == 0.0 && (share("b") - 1.0).abs() < 1e-9, "{lights:?}");
     let alone = spot.split("\"b\"").next().expect("it is there");
     let picture = scene("progressive()", r#""glass": (transmission: 1)"#, alone, ball).render();
-    assert!(picture.rendered.stats.photons.as_ref().is_none_or(|p| p.stored == 0));
+    assert!(picture.rendered.stats.photons.photons.as_ref().is_none_or(|p| p.stored == 0));
     assert!(picture.channel("caustic", "R").iter().all(|&x| x == 0.0));
 }

@@ -5,6 +5,7 @@ mod absent;
 mod lab;
 mod lights;
 mod parts;
+mod radius;
 mod scales;
 mod seen;
 mod surfaces;

@@ -27,13 +27,15 @@ fn scene(antialiasing: &str, photons: &str) -> Shot {
     .aovs(&AOVS)
 }
 
-const SMALL: &str = "progressive(count: 20000)";
+const SMALL: &str = "progressive(count: 20000), indirect_by: paths";
+const BY_PHOTONS: &str = "progressive(count: 20000), indirect_by: photons";
 
 /// H48.
 #[test]
 fn threads_and_tiles_change_no_bit_of_caustics_and_indirect_light() {
     for (antialiasing, photons) in [
         ("progressive", SMALL),
+        ("progressive", BY_PHOTONS),
         ("grid(2)", "classic(count: 20000, k: 50)"),
         ("adaptive(threshold: 0.05, depth: 2)", SMALL),
     ] {
@@ -54,8 +56,13 @@ fn threads_and_tiles_change_no_bit_of_caustics_and_indirect_light() {
 /// The mean of two halves, in single precision each, is the whole to its last bits.
 #[test]
 fn passes_that_are_rendered_apart_average_to_those_rendered_together() {
-    let render = |range| scene("progressive", SMALL).pass_range(range).render();
-    let (whole, first, second) = (render(0..8), render(0..4), render(4..8));
+    for photons in [SMALL, BY_PHOTONS] {
+        let render = |range| scene("progressive", photons).pass_range(range).render();
+        averages(&render(0..8), &render(0..4), &render(4..8));
+    }
+}
+
+fn averages(whole: &Picture, first: &Picture, second: &Picture) {
     let layers = whole.rendered.image.layers.iter().zip(&first.rendered.image.layers);
     for ((layer, a), b) in layers.zip(&second.rendered.image.layers) {
         if layer.name == "photons" {
@@ -84,14 +91,19 @@ fn passes_that_are_rendered_apart_average_to_those_rendered_together() {
 fn the_single_map_is_the_same_for_any_passes() {
     let caustic = |range| {
         let picture = scene("none", "classic(count: 20000, k: 50)").pass_range(range).render();
-        picture.rendered.stats.photons.expect("there are photons").stored
+        picture.rendered.stats.photons.photons.expect("there are photons").stored
     };
     assert_eq!(caustic(0..1), caustic(5..6));
 }
 
 #[test]
 fn the_layers_of_light_add_up_to_the_picture_and_caustics_are_part_of_it() {
-    let picture = scene("progressive", SMALL).passes(6).render();
+    for photons in [SMALL, BY_PHOTONS] {
+        add_up(&scene("progressive", photons).passes(6).render());
+    }
+}
+
+fn add_up(picture: &Picture) {
     for channel in ["R", "G", "B"] {
         let whole = picture.channel("", channel);
         let layer = |name: &str| picture.channel(name, channel);
@@ -111,11 +123,11 @@ fn the_layers_of_light_add_up_to_the_picture_and_caustics_are_part_of_it() {
 #[test]
 fn a_picture_less_its_caustics_is_the_picture_without_photons() {
     let of = |photons: &str| {
-        let mut shot = scene("progressive", photons).passes(4);
+        let mut shot = scene("progressive", &format!("{photons}, indirect_by: paths")).passes(4);
         shot = shot.aovs(&[Aov::Caustic, Aov::Indirect]);
         shot.render()
     };
-    let (with, without) = (of(SMALL), of("off"));
+    let (with, without) = (of("progressive(count: 20000)"), of("off"));
     let grey = |p: &Picture, layer: &str| p.channel(layer, "R").to_vec();
     let (whole, caustic, indirect) = (grey(&with, ""), grey(&with, "caustic"), grey(&with, "indirect"));
     let (plain, plain_indirect) = (grey(&without, ""), grey(&without, "indirect"));
