@@ -9,7 +9,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names test lint bench assets schema install clean help FORCE
+.PHONY: all build renders images names test lint bench yardstick assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -99,6 +99,11 @@ lint:
 bench:
 	$(CARGO) bench --locked
 	@if [ -x benches/run ]; then benches/run; fi
+
+## yardstick: the error of two scenes against time, with the goals that are met and missed
+yardstick: build
+	@command -v python3 >/dev/null || { echo "make yardstick needs python3" >&2; exit 2; }
+	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/yardstick.py
 
 ## assets: make the meshes and textures that programs write
 assets: build

@@ -11,32 +11,13 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import images  # noqa: E402
+from measure import ROOT, SCENES, TERRARIUM, Run, verdict  # noqa: E402
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SCENES = os.path.join(ROOT, "scenes", "yardstick")
 PEERS = os.path.join(ROOT, "benches", "peers")
-TERRARIUM = os.environ.get("TERRARIUM", os.path.join(ROOT, "target", "release", "terrarium"))
 TURNS = int(os.environ.get("TURNS", "3"))
-
-
-class Run:
-    """What one run of a program took: seconds of wall and processor time, and its peak in MiB."""
-
-    def __init__(self, command, cwd):
-        start = time.perf_counter()
-        process = subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.output = process.stdout.read().decode(errors="replace")
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        self.wall = time.perf_counter() - start
-        self.cpu = usage.ru_utime + usage.ru_stime
-        self.peak = usage.ru_maxrss / 1024
-        if process.returncode:
-            raise RuntimeError("%s failed:\n%s" % (command[0], self.output[-800:]))
 
 
 def in_turns(commands, cwd, turns=TURNS):
@@ -56,12 +37,6 @@ def in_turns(commands, cwd, turns=TURNS):
 
 def row(title, values, unit="s"):
     print("  %-44s min %8.3f  median %8.3f %s" % (title, min(values), statistics.median(values), unit))
-
-
-def verdict(title, ratio, goal, better):
-    met = ratio <= goal if better == "less" else ratio >= goal
-    sign = "<=" if better == "less" else ">="
-    print("  %-44s %12.3f  (goal %s %.3g) %s" % (title, ratio, sign, goal, "met" if met else "MISSED"))
 
 
 def least(runs, what):

@@ -5,6 +5,7 @@
 
 mod antialiasing;
 mod broken_meshes;
+mod caustics;
 mod determinism;
 mod glass;
 mod layers;

@@ -23,8 +23,12 @@ impl Shot {
         Shot { folder: folder.to_owned(), ..self }
     }
 
-    pub fn passes(mut self, passes: u32) -> Shot {
-        self.options.passes = Some(0..passes);
+    pub fn passes(self, passes: u32) -> Shot {
+        self.pass_range(0..passes)
+    }
+
+    pub fn pass_range(mut self, passes: std::ops::Range<u32>) -> Shot {
+        self.options.passes = Some(passes);
         self
     }
 
