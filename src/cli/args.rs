@@ -126,7 +126,6 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         Some((first, end)) => number(first)?..number(end)?,
         None => 0..number(text)?,
     };
-    // A pass's number is below that of the photons' pilot.
     if range.is_empty() || range.end == u32::MAX {
         return Err("at least one pass is needed".to_owned());
     }

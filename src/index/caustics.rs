@@ -22,11 +22,11 @@ pub enum Reach<'a> {
 
 impl Caustics<'_> {
     /// The density estimate at `p` on the side of the unit geometric normal `n`. `least` is the smallest
-    /// radius that makes sense there, metres and above 0: that of what the camera cannot resolve.
+    /// first radius that makes sense there, metres and above 0: that of what the camera cannot resolve.
     #[inline]
     pub fn gather(&self, p: Vec3, n: Vec3, least: f32, brdf: impl Fn(Vec3) -> Vec3) -> Gathered {
         let radius = match self.reach {
-            Reach::Shrinking { first, factor } => Radius::Fixed((first.radius(p, n) * factor).max(least)),
+            Reach::Shrinking { first, factor } => Radius::Fixed(first.radius(p, n).max(least) * factor),
             Reach::Nearest { k, max } => Radius::Nearest { k, min: least.min(max), max },
         };
         self.map.gather(&Query { p, n, radius }, self.kernel, brdf)

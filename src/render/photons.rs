@@ -10,9 +10,6 @@ use serde::Serialize;
 /// Photons of the pilot from which the first radius comes.
 const PILOT: (u32, u32) = (10_000, 100_000);
 
-/// A pass that no render comes to: the pilot's photons are no pass's photons.
-const PILOT_PASS: u32 = u32::MAX;
-
 /// The largest radius as a share of the size of what focuses light.
 const MAX_RADIUS: f64 = 0.25;
 
@@ -77,7 +74,7 @@ impl PhotonStage {
             PhotonEngine::Classic { k } => Rule::Nearest { k: k as usize },
             PhotonEngine::Progressive { alpha, k } => {
                 let count = budget.count.clamp(PILOT.0, PILOT.1);
-                let pilot = emission.scatter(world, PILOT_PASS, count.into());
+                let pilot = emission.pilot().scatter(world, 0, count.into());
                 let stored = pilot.photons.len() as f64 * f64::from(budget.count) / f64::from(count);
                 let first = Bandwidth::new(pilot.photons, stored, f64::from(k), 0.0, max_radius);
                 Rule::Shrinking { first, alpha }

@@ -153,6 +153,11 @@ impl Emission {
         radii.get(radii.len() / 2).copied().unwrap_or(0.0)
     }
 
+    /// The same, for photons that are no pass's: independent of all of theirs.
+    pub fn pilot(&self) -> Emission {
+        Emission { seed: mix(self.seed ^ PILOT), ..self.clone() }
+    }
+
     /// By emitter of the world, what the pilot found and decided.
     pub fn lights(&self) -> Vec<LightShare> {
         let mut lights = vec![LightShare::default(); self.emitters];
@@ -264,3 +269,4 @@ const WHERE: [u64; 2] = [0, 1];
 const OFFSET: u64 = u64::MAX;
 
 const INDIRECT: u64 = 0x1d1e_c7ed;
+const PILOT: u64 = 0x0b5e_7fae;

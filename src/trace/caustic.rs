@@ -12,12 +12,6 @@ use crate::math::random::Sequence;
 use crate::math::{Frame, Ray, Vec3};
 use std::f64::consts::TAU;
 
-/// Where the photons in the sum lie no further to one side than this, no edge of the surface is near.
-const EVEN: f32 = 0.2;
-
-/// So few photons may lie to one side by chance.
-const FEW: u32 = 12;
-
 /// Counts of trials whose mean is taken, and the most trials of each: a surface that fills less of the disc
 /// than that is taken for noise.
 const COUNTS: u32 = 2;
@@ -95,7 +89,7 @@ impl Tracer<'_> {
     /// What the estimate is multiplied by where the surface ends within the disc, so that photons cannot
     /// lie on all of it (H32): the inverse of the kernel's integral over the surface. As many places as are
     /// drawn from the kernel until one lies on the surface are that inverse in the mean, which leaves no bias.
-    /// Looked for only where the photons are few or lie to one side.
+    /// Looked for where the shape does not say that its face goes on for the radius.
     fn edge_correction(
         &self,
         caustics: &Caustics,
@@ -105,9 +99,6 @@ impl Tracer<'_> {
         sequence: Sequence,
         tally: &mut Tally,
     ) -> f32 {
-        if gathered.photons >= FEW && gathered.offset.length() < EVEN {
-            return 1.0;
-        }
         let radius = f64::from(gathered.radius);
         if self.world.clearance(surface) >= radius {
             return 1.0;
