@@ -65,7 +65,7 @@ impl Tracer<'_> {
             }
             // From where the shadow ray starts: a lamp's own surface must not be met from its other side.
             EmitterKind::Shape { instance } => {
-                self.shape_sample(*instance, p + shading.ng * surface.p_error, u())
+                self.shape_sample(*instance, p + shading.ng * surface.p_error, shading, u())
             }
             EmitterKind::Mesh { instance, triangles, cumulative } => {
                 self.mesh_sample(*instance, triangles, cumulative, p, u())
@@ -74,18 +74,42 @@ impl Tracer<'_> {
         }
     }
 
-    /// A direction within the solid angle of a placed shape. An affine map takes the density along:
-    /// p_world = p_object·‖Mω‖³ / |det M|.
-    fn shape_sample(&self, index: u32, p: DVec3, u: [f64; 2]) -> Option<LightSample> {
+    /// A direction within the solid angle of a placed shape, or, where a highlight is narrower than that, from
+    /// the balance of the two (Veach & Guibas 1995), so that neither wide lamps nor narrow highlights are
+    /// noisy. An affine map takes the density along: p_world = p_object·‖Mω‖³ / |det M|.
+    fn shape_sample(&self, index: u32, p: DVec3, shading: &Shading, u: [f64; 2]) -> Option<LightSample> {
         let instance = &self.world.instances[index as usize];
         let Geometry::Shape(shape) = self.world.geometry(index) else { return None };
         let placement = &instance.placement;
         let from = placement.local_point(p);
-        let sample = shape.sample_direction(from, u)?;
-        let dir = placement.vector(sample.dir);
-        let length = dir.length();
-        let pdf = sample.pdf * length * length * length / placement.det().abs();
-        let ray = Ray { origin: p, dir: dir / length };
+        let by_shape = |u| -> Option<(DVec3, f64)> {
+            let sample = shape.sample_direction(from, u)?;
+            let dir = placement.vector(sample.dir);
+            let length = dir.length();
+            Some((dir / length, sample.pdf * length * length * length / placement.det().abs()))
+        };
+        let (dir, pdf) = by_shape(u)?;
+        let (dir, pdf) = match Highlight::of(shading).filter(|highlight| highlight.peak() > pdf) {
+            None => (dir, pdf),
+            Some(highlight) => {
+                let first = u[0] < 0.5;
+                let u = [2.0 * u[0] - if first { 0.0 } else { 1.0 }, u[1]];
+                let (dir, pdf) = if first {
+                    by_shape(u)?
+                } else {
+                    let dir = highlight.sample(u);
+                    let local = placement.local_vector(dir);
+                    let length = local.length();
+                    let pdf = shape.direction_pdf(from, local / length);
+                    if pdf == 0.0 {
+                        return None;
+                    }
+                    (dir, pdf / (length * length * length * placement.det().abs()))
+                };
+                (dir, 0.5 * (pdf + highlight.pdf(dir)))
+            }
+        };
+        let ray = Ray { origin: p, dir };
         let hit = self.world.nearest_of(index, &ray, f64::INFINITY).or_else(|| {
             // Rounding leads the ray past a sphere that is very small for its distance.
             let Shape::Sphere(sphere) = shape else { return None };
@@ -93,7 +117,7 @@ impl Tracer<'_> {
             Some(Hit { t, instance: index, primitive: 0, b: [0.0; 3] })
         })?;
         let radiance = self.emitted_towards(&ray, &hit);
-        (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
+        (pdf > 0.0 && pdf.is_finite() && radiance != Vec3::ZERO).then(|| LightSample {
             wi: ray.dir,
             value: radiance / pdf as f32,
             distance: hit.t,
@@ -140,19 +164,16 @@ impl Tracer<'_> {
     /// the cosine of the surface, which serves wide and even skies better; and its highlight's, if it has one.
     fn environment_sample(&self, shading: &Shading, u: [f64; 2]) -> Option<LightSample> {
         let environment = self.world.environment.as_ref()?;
-        let exponent = (shading.ks != Vec3::ZERO).then_some(shading.material.shininess);
-        let strategies = if exponent.is_some() { 3.0 } else { 2.0 };
-        let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
+        let highlight = Highlight::of(shading);
+        let strategies = if highlight.is_some() { 3.0 } else { 2.0 };
         let choice = strategies * u[0];
         let u = [(choice - choice.floor()).clamp(0.0, 1.0 - f64::EPSILON), u[1]];
-        let wi = match exponent {
+        let wi = match &highlight {
             _ if choice < 1.0 => environment.sample(u)?.dir,
-            Some(exponent) if choice >= 2.0 => {
-                Frame::around(mirror).to_world(sampling::phong_lobe(exponent, u))
-            }
+            Some(highlight) if choice >= 2.0 => highlight.sample(u),
             _ => Frame::around(shading.ns).to_world(sampling::cosine_hemisphere(u)),
         };
-        let highlight = exponent.map_or(0.0, |exponent| sampling::phong_lobe_pdf(exponent, wi.dot(mirror)));
+        let highlight = highlight.map_or(0.0, |highlight| highlight.pdf(wi));
         let cosine = wi.dot(shading.ns).max(0.0) * FRAC_1_PI;
         let pdf = (environment.pdf(wi) + cosine + highlight) / strategies;
         let radiance = environment.radiance(wi);
@@ -183,6 +204,35 @@ impl Tracer<'_> {
         }
         let point = || TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
         material.emission.at(&world.textures, point)
+    }
+}
+
+/// The Phong lobe of a surface around its mirror direction.
+struct Highlight {
+    mirror: DVec3,
+    exponent: f64,
+}
+
+impl Highlight {
+    fn of(shading: &Shading) -> Option<Highlight> {
+        (shading.ks != Vec3::ZERO).then(|| Highlight {
+            mirror: shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo,
+            exponent: shading.material.shininess,
+        })
+    }
+
+    fn sample(&self, u: [f64; 2]) -> DVec3 {
+        Frame::around(self.mirror).to_world(sampling::phong_lobe(self.exponent, u))
+    }
+
+    /// 1/sr.
+    fn pdf(&self, wi: DVec3) -> f64 {
+        sampling::phong_lobe_pdf(self.exponent, wi.dot(self.mirror))
+    }
+
+    /// The greatest density.
+    fn peak(&self) -> f64 {
+        (self.exponent + 1.0) / std::f64::consts::TAU
     }
 }
 

@@ -1,6 +1,6 @@
 //! Layers of a material: they gain nothing, and each does what it says.
 
-use super::shot::{assert_close, shot};
+use super::shot::{Picture, assert_close, shot};
 use std::f64::consts::PI;
 use terrarium::math::random::{Counter, Stage};
 
@@ -124,4 +124,46 @@ fn both_sides_of_an_open_surface_are_lit() {
         .mean();
         assert_close(found, 0.5 * 2.0 / PI, 1e-6);
     }
+}
+
+/// A highlight narrower than the lamp that it mirrors is as even as the lamp: the estimates of two sets of
+/// passes differ by a few per cent, where light drawn from the lamp alone would leave ten times the noise; and its
+/// mean is that of one that is drawn from the lamp only (a lamp of many parts, each too small to be wide).
+#[test]
+fn narrow_highlights_of_wide_lamps_are_smooth_and_keep_their_mean() {
+    let scene = |lights: &str, passes: &str| {
+        format!(
+            r#"(camera: (eye: (0, 1, 2), target: (0, 0, 0), fov_deg: 10), image: (width: 24, height: 24), {passes}
+            materials: {{ "polish": (specular: 0.5, shininess: 4000) }}, lights: {{ {lights} }},
+            objects: [(shape: quad(size: (4, 4)), material: "polish")])"#
+        )
+    };
+    let lamp = |x: f64, z: f64, w: f64| {
+        format!(
+            "corner: ({:?}, 2, {:?}), edge_u: (0, 0, {w:?}), edge_v: ({w:?}, 0, 0), two_sided: true, radiance: 5",
+            x - w / 2.0,
+            z - w / 2.0
+        )
+    };
+    let wide = format!(r#""lamp": quad({})"#, lamp(0.0, -4.0, 2.0));
+    let parts: Vec<String> = (0..64)
+        .flat_map(|i| (0..64).map(move |j| (i, j)))
+        .filter(|(i, j)| i % 8 == 0 && j % 8 == 0)
+        .map(|(i, j)| {
+            let w = 0.25;
+            let at = |k: i32| -1.0 + w * (f64::from(k / 8) + 0.5);
+            format!(r#""part {i} {j}": quad({})"#, lamp(at(i), -4.0 + at(j), w))
+        })
+        .collect();
+    let one = shot(scene(&wide, "render: (seed: 1),")).passes(8).render();
+    let other = shot(scene(&wide, "render: (seed: 2),")).passes(8).render();
+    let parts = shot(scene(&parts.join(", "), "")).passes(8).render();
+    let mean = |p: &Picture| p.grey().iter().sum::<f64>() / p.grey().len() as f64;
+    let noise = {
+        let square: f64 = one.grey().iter().zip(other.grey()).map(|(a, b)| (a - b).powi(2) / 2.0).sum();
+        (square / one.grey().len() as f64).sqrt() / mean(&one)
+    };
+    assert!(mean(&one) > 0.1, "the lamp is not seen in the polish: {}", mean(&one));
+    assert!(noise < 0.12, "noise {noise} after 8 passes");
+    assert_close(mean(&one), mean(&parts), 0.02);
 }
