@@ -6,12 +6,13 @@
 mod antialiasing;
 mod broken_meshes;
 mod determinism;
+mod dispersion;
 mod glass;
 mod layers;
 mod light;
 mod materials;
 mod media;
-mod meshes;
+pub(crate) mod meshes;
 mod mirrors;
 mod robustness;
 mod scatter;
