@@ -17,6 +17,7 @@ pub mod mesh;
 pub mod noise;
 pub mod pebble;
 pub mod pine;
+pub mod prism;
 pub mod random;
 pub mod sky;
 pub mod solid;
@@ -69,6 +70,7 @@ const CATALOGUE: &[(&str, Make)] = &[
     ("obj/grass_tuft.obj", |_| grass::tuft(141).obj()),
     ("obj/pebble_1.obj", |_| pebble::stone(151, [1.0, 0.62, 0.8]).obj()),
     ("obj/pebble_2.obj", |_| pebble::stone(152, [0.85, 0.5, 1.0]).obj()),
+    ("obj/prism.obj", |_| prism::equilateral().obj()),
     ("env/evening.exr", |_| sky::evening()),
 ];
 

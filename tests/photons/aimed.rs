@@ -8,7 +8,7 @@ const OBJECTS: &str = r#"(shape: quad(size: (8, 8)), material: "white"),
     (shape: box(size: (0.4, 0.8, 0.3), center: (1.4, 0.5, 0.6)), material: "mirror")"#;
 
 /// Stored power within 3σ of the unaimed, with a higher yield.
-fn assert_aimed_is_unaimed(lab: &Lab) {
+pub(super) fn assert_aimed_is_unaimed(lab: &Lab) {
     let aimed = lab.caustics(32, 10_000);
     let unaimed = lab.passes(Store::Caustics, Aim::Scene, 32, 10_000);
     // By quadrant of the floor as well as in all.

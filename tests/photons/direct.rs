@@ -5,11 +5,11 @@ use super::lab::{Lab, lab, on_patch, power};
 use std::f64::consts::PI;
 use terrarium::scatter::{Aim, Store};
 
-const FLOOR: &str = r#"(shape: quad(size: (4, 4)), material: "white")"#;
+pub(super) const FLOOR: &str = r#"(shape: quad(size: (4, 4)), material: "white")"#;
 const SMALL_FLOOR: &str = r#"(shape: quad(size: (1.2, 1.2)), material: "white")"#;
 
 /// The floor's irradiance over a square of a metre at (x, z), from photons: within 3σ, and 1 %.
-fn assert_irradiance(lab: &Lab, at: [f64; 2], expected: impl Fn(f64, f64) -> f64) {
+pub(super) fn assert_irradiance(lab: &Lab, at: [f64; 2], expected: impl Fn(f64, f64) -> f64) {
     let half = 0.5;
     let n = 16;
     let middle = |i: usize| half * ((2 * i + 1) as f64 / n as f64 - 1.0);
@@ -26,7 +26,7 @@ fn assert_irradiance(lab: &Lab, at: [f64; 2], expected: impl Fn(f64, f64) -> f64
 }
 
 /// Irradiance from a small piece of a lamp of the given radiance at `q` with normal `n`, on the floor.
-fn piece(q: [f64; 3], n: [f64; 3], area: f64, x: f64, z: f64) -> f64 {
+pub(super) fn piece(q: [f64; 3], n: [f64; 3], area: f64, x: f64, z: f64) -> f64 {
     let d = [q[0] - x, q[1], q[2] - z];
     let d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     let there = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);

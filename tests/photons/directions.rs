@@ -1,7 +1,7 @@
 //! Lights emit in the directions of their own distribution (S2, H51): on a white sphere far around a
 //! lamp, over 320 bins of equal solid angle that are no cells of the emission.
 
-use super::lab::lab;
+use super::lab::{Lab, lab};
 use std::f64::consts::PI;
 use terrarium::math::sampling::SphericalCell;
 use terrarium::math::{DMat3, DVec3};
@@ -22,9 +22,13 @@ fn turn() -> DMat3 {
     DMat3::from_cols(x, z.cross(x), z)
 }
 
-/// χ² of the power by bins, with `intensity` in W/sr by direction.
 fn assert_distribution(light: &str, intensity: impl Fn(DVec3) -> f64) {
     let scene = lab("", light, r#"(shape: sphere(radius: 1000), material: "white")"#);
+    assert_travels(&scene, intensity);
+}
+
+/// χ² of the power that arrives by bins of the direction in which it travels, with `intensity` in W/sr.
+pub(super) fn assert_travels(scene: &Lab, intensity: impl Fn(DVec3) -> f64) {
     let (bins, turn) = (bins(), turn());
     let n = 150_000;
     let planes: Vec<[DVec3; 3]> = bins.iter().map(SphericalCell::planes).collect();

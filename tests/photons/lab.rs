@@ -14,17 +14,23 @@ pub struct Lab {
 
 /// The world of `materials`, `lights` and `objects`, each the inside of its list in RON.
 pub fn lab(materials: &str, lights: &str, objects: &str) -> Lab {
+    lab_in(Path::new(""), "", materials, lights, objects)
+}
+
+/// The same with files of a folder, and `more` fields of the scene, each with its comma.
+pub fn lab_in(folder: &Path, more: &str, materials: &str, lights: &str, objects: &str) -> Lab {
     let text = format!(
         r#"(
     camera: (eye: (0, 3, 9), target: (0, 0, 0), fov_deg: 40),
     image: (width: 2, height: 2),
+    {more}
     materials: {{ "white": (diffuse: 1), "glass": (transmission: 1, ior: 1.5), "mirror": (reflection: 1), {materials} }},
     lights: {{ {lights} }},
     objects: [{objects}],
 )"#
     );
-    let loaded = load_str(&text, Format::Ron, Path::new(""), &[])
-        .unwrap_or_else(|report| panic!("{report:?}\n{text}"));
+    let loaded =
+        load_str(&text, Format::Ron, folder, &[]).unwrap_or_else(|report| panic!("{report:?}\n{text}"));
     let plan = Plan::new(&loaded.scene, None, Some(7));
     let world = build(&loaded.scene, &plan).unwrap_or_else(|error| panic!("{error}\n{text}")).world;
     Lab { world, plan }
