@@ -13,14 +13,15 @@ use terrarium::scatter::{Aim, Store};
 const SKY: &str = r#""sky": environment(map: gradient(zenith: 4, horizon: 1, nadir: 0.1))"#;
 const HALF: f64 = 0.3;
 
-fn patch() -> String {
-    format!(r#"(shape: quad(size: ({}, {})), material: "white")"#, 2.0 * HALF, 2.0 * HALF)
+/// It hides what is below it, for light as for eyes.
+fn patch(material: &str) -> String {
+    format!(r#"(shape: quad(size: ({}, {})), material: "{material}")"#, 2.0 * HALF, 2.0 * HALF)
 }
 
 /// The irradiance of the patch at the origin that photons find behind casters.
 fn by_photons(folder: &Path, more: &str, materials: &str, caster: &str) -> (f64, f64) {
-    let scene = lab_in(folder, more, materials, SKY, &format!("{}, {caster}", patch()));
-    let passes = scene.passes(Store::Caustics, Aim::Casters, 24, 200_000);
+    let scene = lab_in(folder, more, materials, SKY, &format!("{}, {caster}", patch("white")));
+    let passes = scene.passes(Store::Caustics, Aim::Casters, 24, 100_000);
     let found = power(&passes, |p| on_patch(&scene, p, [0.0, 0.0], HALF));
     let area = 4.0 * HALF * HALF;
     (found.mean / area, found.error / area)
@@ -34,10 +35,11 @@ fn by_paths(folder: &Path, more: &str, materials: &str, caster: &str) -> f64 {
         let at = |i: usize| ((i as f64 + 0.5) / points as f64 * 2.0 - 1.0) * HALF;
         let (x, z) = (at(i / points), at(i % points));
         let text = format!(
-            r#"(camera: (eye: ({x:?}, 0, {z:?}), target: ({x:?}, 1, {z:?}), up: (0, 0, 1), fov_deg: 120),
+            r#"(camera: (eye: ({x:?}, 1e-4, {z:?}), target: ({x:?}, 1, {z:?}), up: (0, 0, 1), fov_deg: 120),
             image: (width: {n}, height: {n}), photons: off, {more}
-            materials: {{ "white": (diffuse: 1), "glass": (transmission: 1, ior: 1.5), "mirror": (reflection: 1), {materials} }},
-            lights: {{ {SKY} }}, objects: [{caster}])"#
+            materials: {{ "white": (diffuse: 1), "glass": (transmission: 1, ior: 1.5), "mirror": (reflection: 1), "black": (diffuse: 0), {materials} }},
+            lights: {{ {SKY} }}, objects: [{}, {caster}])"#,
+            patch("black")
         );
         let loaded = load_str(&text, Format::Ron, folder, &[]).unwrap_or_else(|r| panic!("{r}\n{text}"));
         let options = Options {
@@ -83,7 +85,7 @@ fn a_mapped_mirror_throws_onto_a_floor_what_the_floor_sees_in_it() {
     let none = Path::new("");
     let mapped = r#""mapped": (reflection: 1, normal_map: (texture: "tilts"))"#;
     let (photons, error) = by_photons(none, TILTS, mapped, &mirror("mapped"));
-    let sky = lab_in(none, "", "", SKY, &patch()).world.environment.expect("a sky");
+    let sky = lab_in(none, "", "", SKY, &patch("white")).world.environment.expect("a sky");
     let (n, m) = (80, 6);
     let mut expected = 0.0;
     for i in 0..n * n {
@@ -97,6 +99,10 @@ fn a_mapped_mirror_throws_onto_a_floor_what_the_floor_sees_in_it() {
             let to = q - DVec3::new(at(j / m), 0.0, at(j % m));
             let d = to.normalize();
             let mirrored = d - normal * (2.0 * d.dot(normal));
+            let down = q - mirrored / mirrored.y;
+            if mirrored.y < 0.0 && down.x.abs().max(down.z.abs()) < HALF {
+                continue;
+            }
             let weight = d.y * d.y / to.length_squared() * 4.0 / (n * n * m * m) as f64;
             expected += weight * f64::from(sky.radiance(mirrored).x);
         }
@@ -120,7 +126,7 @@ fn a_mapped_pane_of_glass_throws_onto_a_floor_what_the_floor_sees_through_it() {
 #[test]
 fn coarse_smooth_meshes_throw_onto_a_floor_what_the_floor_sees_in_them() {
     let dir = folder();
-    for (fineness, material) in [(3, "glass"), (2, "glass"), (3, "mirror"), (2, "mirror"), (1, "mirror")] {
+    for (fineness, material) in [(3, "glass"), (2, "glass"), (3, "mirror"), (1, "mirror")] {
         icosphere(fineness).write(&dir.path().join("ball.obj"));
         let ball = format!(
             r#"(shape: mesh(path: "ball.obj"), material: "{material}", transform: [scale(0.6), translate((0, 1.1, 0))])"#

@@ -8,13 +8,21 @@ use terrarium::render::{Aov, Options, RenderError, Rendered, Silent, render};
 #[derive(Clone)]
 pub struct Shot {
     text: String,
+    /// Values that replace the scene's.
+    set: Vec<String>,
     folder: std::path::PathBuf,
     pub options: Options,
 }
 
-/// A shot of RON text.
+/// A shot of RON text, as the classic ray tracer sees it: without photons.
 pub fn shot(text: impl Into<String>) -> Shot {
-    Shot { text: text.into(), folder: Path::new("").to_owned(), options: Options::default() }
+    Shot { set: vec!["photons=off".to_owned()], ..focused(text) }
+}
+
+/// A shot of RON text as it stands: with the caustics that it calls for.
+pub fn focused(text: impl Into<String>) -> Shot {
+    let folder = Path::new("").to_owned();
+    Shot { text: text.into(), set: Vec::new(), folder, options: Options::default() }
 }
 
 impl Shot {
@@ -43,7 +51,7 @@ impl Shot {
     }
 
     pub fn load(&self) -> Loaded {
-        load_str(&self.text, Format::Ron, &self.folder, &[])
+        load_str(&self.text, Format::Ron, &self.folder, &self.set)
             .unwrap_or_else(|report| panic!("{report:?}\n{}", self.text))
     }
 

@@ -1,6 +1,6 @@
 //! Where nothing is focused there are no photons, and no light goes through what is opaque.
 
-use crate::render::shot::{Picture, Shot, shot};
+use crate::render::shot::{Picture, Shot, focused as shot};
 use terrarium::render::Aov;
 
 fn scene(photons: &str, materials: &str, lights: &str, objects: &str) -> Shot {

@@ -1,6 +1,6 @@
 //! Scenes in which a floor is seen from under a pane, and numbers with their errors.
 
-use crate::render::shot::{Picture, Shot, shot};
+use crate::render::shot::{Picture, Shot, focused as shot};
 use std::path::Path;
 use terrarium::render::Aov;
 

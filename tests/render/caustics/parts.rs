@@ -1,6 +1,6 @@
 //! Parts of a render and of its light add up to the whole, whoever computes them.
 
-use crate::render::shot::{Picture, Shot, shot};
+use crate::render::shot::{Picture, Shot, focused as shot};
 use terrarium::render::Aov;
 
 const AOVS: [Aov; 8] = [

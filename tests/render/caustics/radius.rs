@@ -1,7 +1,7 @@
 //! The gather radius shrinks from pass to pass as Knaus and Zwicker's formula has it.
 
 use super::lab::mean_of;
-use crate::render::shot::shot;
+use crate::render::shot::focused as shot;
 use std::ops::Range;
 use terrarium::render::Aov;
 

@@ -1,6 +1,6 @@
 //! H36: the size of a scene changes nothing. Lengths times s, intensities times s².
 
-use crate::render::shot::{Picture, agreement, assert_close, shot};
+use crate::render::shot::{Picture, agreement, assert_close, focused as shot};
 
 const PASSES: &str = "progressive(count: 20000)";
 

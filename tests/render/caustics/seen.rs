@@ -1,7 +1,7 @@
 //! H50: a caustic seen in a mirror or through glass is the caustic. Path tracers do not find it.
 
 use super::lab::{Estimate, estimate, parts};
-use crate::render::shot::{Picture, shot};
+use crate::render::shot::{Picture, focused as shot};
 use terrarium::render::Aov;
 
 /// A glass ball under a slanting spot light, and its caustic beside it on the floor, seen from above. What is

@@ -2,7 +2,7 @@
 
 use super::lab::mean_of;
 use crate::render::meshes::{cube, folder, icosphere};
-use crate::render::shot::{Shot, shot};
+use crate::render::shot::{Shot, focused as shot};
 use std::path::Path;
 use terrarium::render::Aov;
 

@@ -4,7 +4,7 @@
 //! They are rendered at a quarter of the width and height: the pixels' filter is a box, so that the mean of
 //! 4 × 4 pixels of the reference is the reference.
 
-use crate::render::shot::{Picture, Shot, shot};
+use crate::render::shot::{Picture, Shot, focused as shot};
 use exr::prelude::read_first_flat_layer_from_file;
 use std::path::Path;
 
