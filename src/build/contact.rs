@@ -69,15 +69,8 @@ impl World {
         let rank = self.instances[hit.instance as usize].rank;
         if rank != 0 {
             let band = band(ray, &surface);
-            if self.contacts[rank as usize - 1].may_touch(surface.p, band)
-                && let Some(opaque) = self.opaque_within(ray, surface.t, band)
-            {
-                let leaves = media.contains(rank) && ray.dir.dot(surface.ng) > 0.0;
-                return if leaves {
-                    Met { surface, behind: Some(opaque) }
-                } else {
-                    Met { surface: self.surface(ray, &opaque), behind: None }
-                };
+            if self.contacts[rank as usize - 1].may_touch(surface.p, band) {
+                return self.touching(ray, media, surface, rank, band);
             }
         } else if media.top() != 0
             && let Some(glass) = self.left_within(ray, media.top(), &surface)
@@ -85,6 +78,19 @@ impl World {
             return Met { surface: self.surface(ray, &glass), behind: Some(*hit) };
         }
         Met { surface, behind: None }
+    }
+
+    /// The surface of a hit on glass, where something opaque lies in reach of rounding.
+    #[inline(never)]
+    fn touching(&self, ray: &Ray, media: &MediaSet, surface: Surface, rank: u32, band: f64) -> Met {
+        let Some(opaque) = self.opaque_within(ray, surface.t, band) else {
+            return Met { surface, behind: None };
+        };
+        if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
+            Met { surface, behind: Some(opaque) }
+        } else {
+            Met { surface: self.surface(ray, &opaque), behind: None }
+        }
     }
 
     /// The first opaque surface within `band` of t along the ray.
@@ -105,6 +111,7 @@ impl World {
     }
 
     /// The surface by which a ray leaves the medium of this rank where it meets an opaque one.
+    #[inline(never)]
     fn left_within(&self, ray: &Ray, rank: u32, opaque: &Surface) -> Option<Hit> {
         let band = band(ray, opaque);
         if !self.contacts[rank as usize - 1].may_touch(opaque.p, band) {

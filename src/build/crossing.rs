@@ -82,6 +82,11 @@ impl World {
     /// Beer–Lambert over `t` metres of the medium.
     #[inline]
     pub fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
+        if media.top() == 0 { Vec3::ONE } else { self.transmittance_within(media, t) }
+    }
+
+    #[inline(never)]
+    fn transmittance_within(&self, media: &MediaSet, t: f64) -> Vec3 {
         let (_, absorption) = self.medium(media);
         if absorption == Vec3::ZERO {
             return Vec3::ONE;
@@ -93,28 +98,35 @@ impl World {
 impl Shading<'_> {
     /// The mirrored direction, on the side of wo: one that a bent shading normal has sent below the
     /// surface is mirrored back up.
+    #[inline]
     pub fn mirrored(&self, health: &mut Health) -> DVec3 {
         let wi = reflected(self.wo, self.ns);
         let height = wi.dot(self.ng);
-        if height > 0.0 {
-            return wi;
-        }
+        if height > 0.0 { wi } else { self.mirrored_back(wi, height, health) }
+    }
+
+    #[cold]
+    fn mirrored_back(&self, wi: DVec3, height: f64, health: &mut Health) -> DVec3 {
         health.count(Rare::DirectionThroughSurface);
         (wi - self.ng * (2.0 * height)).normalize()
     }
 
     /// Reflectance towards and refraction into a medium of `eta` times the index.
+    #[inline]
     pub fn interface(&self, eta: f64) -> Interface {
         Interface::new(self.wo.dot(self.ns).max(0.0), eta)
     }
 
     /// The refracted direction, on the other side: one that a bent shading normal keeps on the side of wo
     /// is refracted by the geometric normal instead. `None` where that reflects totally.
+    #[inline]
     pub fn refracted(&self, eta: f64, interface: &Interface, health: &mut Health) -> Option<DVec3> {
         let wi = refracted(self.wo, self.ns, eta, interface.cos_t);
-        if wi.dot(self.ng) < 0.0 {
-            return Some(wi);
-        }
+        if wi.dot(self.ng) < 0.0 { Some(wi) } else { self.refracted_flat(eta, health) }
+    }
+
+    #[cold]
+    fn refracted_flat(&self, eta: f64, health: &mut Health) -> Option<DVec3> {
         health.count(Rare::DirectionThroughSurface);
         let flat = Interface::new(self.wo.dot(self.ng).max(0.0), eta);
         (flat.reflectance < 1.0).then(|| refracted(self.wo, self.ng, eta, flat.cos_t))

@@ -45,6 +45,7 @@ pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> T
 }
 
 /// The (u, v) steps of steps on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.
+#[inline]
 fn in_uv(surface: &Surface, steps: [DVec3; 2]) -> [DVec2; 2] {
     let (u, v) = (surface.dpdu, surface.dpdv);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
@@ -53,8 +54,9 @@ fn in_uv(surface: &Surface, steps: [DVec3; 2]) -> [DVec2; 2] {
         return [DVec2::ZERO; 2];
     }
     let inverse = 1.0 / det;
-    steps.map(|step| {
+    let in_uv = |step: DVec3| {
         let (su, sv) = (step.dot(u), step.dot(v));
         DVec2::new(vv * su - uv * sv, uu * sv - uv * su) * inverse
-    })
+    };
+    [in_uv(steps[0]), in_uv(steps[1])]
 }

@@ -25,37 +25,58 @@ const CAPACITY: usize = 7;
 /// The set of ranks that a point is inside of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MediaSet {
+    /// The highest first, the others in any order; 0 behind them.
     ranks: [u32; CAPACITY],
     len: u32,
 }
 
 impl MediaSet {
     /// The rank that counts; 0 is the surrounding vacuum.
+    #[inline]
     pub fn top(&self) -> u32 {
-        self.entries().iter().copied().max().unwrap_or(0)
+        self.ranks[0]
     }
 
+    #[inline]
     pub fn contains(&self, rank: u32) -> bool {
         self.entries().contains(&rank)
     }
 
     /// The set after crossing a surface of `rank` inwards or outwards. `None` when too many objects
     /// overlap to be kept track of.
-    pub fn crossed(mut self, rank: u32, inwards: bool) -> Option<MediaSet> {
+    #[inline]
+    pub fn crossed(self, rank: u32, inwards: bool) -> Option<MediaSet> {
+        let mut alone = MediaSet::default();
+        match (inwards, self.len) {
+            (true, 0) => {
+                alone.ranks[0] = rank;
+                alone.len = 1;
+                Some(alone)
+            }
+            (false, 1) if self.ranks[0] == rank => Some(alone),
+            _ => self.crossed_of_several(rank, inwards),
+        }
+    }
+
+    #[inline(never)]
+    fn crossed_of_several(mut self, rank: u32, inwards: bool) -> Option<MediaSet> {
+        let len = self.len as usize;
         let position = self.entries().iter().position(|&r| r == rank);
         match (inwards, position) {
-            (true, None) if self.len as usize == CAPACITY => return None,
+            (true, None) if len == CAPACITY => return None,
             (true, None) => {
-                self.ranks[self.len as usize] = rank;
+                self.ranks[len] = rank;
                 self.len += 1;
             }
             (false, Some(i)) => {
+                self.ranks[i] = self.ranks[len - 1];
+                self.ranks[len - 1] = 0;
                 self.len -= 1;
-                self.ranks[i] = self.ranks[self.len as usize];
-                self.ranks[self.len as usize] = 0;
             }
             _ => {}
         }
+        let highest = (0..CAPACITY).max_by_key(|&i| self.ranks[i]).unwrap_or(0);
+        self.ranks.swap(0, highest);
         Some(self)
     }
 
@@ -66,6 +87,7 @@ impl MediaSet {
 
 impl World {
     /// The medium of a set's highest rank.
+    #[inline]
     pub fn medium(&self, set: &MediaSet) -> (Cauchy, Vec3) {
         match set.top() {
             0 => (Cauchy::VACUUM, Vec3::ZERO),
@@ -100,6 +122,7 @@ impl World {
     /// Crossings of other transmissive instances within `tolerance` metres, along the normal, of the
     /// surface point `p` of `instance` that the unit direction `dir` crosses: surfaces that coincide
     /// with it. Calls `found(rank, inwards)` for each.
+    #[inline(never)]
     pub fn coincident(
         &self,
         p: DVec3,

@@ -3,7 +3,7 @@
 use super::footprint::{Cone, texture_point};
 use super::{Surface, World};
 use crate::math::{DVec3, Vec3};
-use crate::optics::{Material, Relief, TexturePoint, bumped_normal, perturbed_normal_from_map};
+use crate::optics::{Material, Relief, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map};
 
 /// A surface point ready for shading. Both normals are turned to the side of `wo`.
 pub struct Shading<'a> {
@@ -19,13 +19,40 @@ pub struct Shading<'a> {
 }
 
 impl<'a> Shading<'a> {
+    #[inline]
     pub fn new(world: &'a World, surface: &Surface, wo: DVec3, cone: &Cone) -> Shading<'a> {
         let material = &world.materials[surface.material.0 as usize];
-        let scale = world.instances[surface.instance as usize].placement.scale();
-        let point =
-            if material.textured { texture_point(surface, scale, wo, cone) } else { plain_point(surface) };
-        let at = |weight: &crate::optics::Weight| weight.at(&world.textures, || point);
         let outside = wo.dot(surface.ng) >= 0.0;
+        if material.textured {
+            return Shading::textured(world, material, surface, wo, cone, outside);
+        }
+        let at = |weight: &Weight| if let Weight::Constant(value) = weight { *value } else { Vec3::ZERO };
+        let turn = if outside { 1.0 } else { -1.0 };
+        Shading {
+            material,
+            wo,
+            ng: surface.ng * turn,
+            ns: surface.ns * turn,
+            kd: at(&material.diffuse),
+            ks: at(&material.specular),
+            km: at(&material.reflection),
+            kt: at(&material.transmission),
+            emission: if outside || material.emits_back { at(&material.emission) } else { Vec3::ZERO },
+        }
+    }
+
+    #[inline(never)]
+    fn textured(
+        world: &'a World,
+        material: &'a Material,
+        surface: &Surface,
+        wo: DVec3,
+        cone: &Cone,
+        outside: bool,
+    ) -> Shading<'a> {
+        let scale = world.instances[surface.instance as usize].placement.scale();
+        let point = texture_point(surface, scale, wo, cone);
+        let at = |weight: &Weight| weight.at(&world.textures, || point);
         let ns = bent_normal(world, material, surface, &point);
         let turn = if outside { 1.0 } else { -1.0 };
         Shading {
@@ -45,10 +72,6 @@ impl<'a> Shading<'a> {
     pub fn emitted(&self) -> Vec3 {
         self.emission
     }
-}
-
-fn plain_point(surface: &Surface) -> TexturePoint {
-    TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 }
 }
 
 /// The shading normal after bump and normal maps, in the hemisphere of the geometric one.

@@ -1,8 +1,8 @@
 //! The surface that a ray has met, in the world.
 
 use super::world::{Geometry, Hit, World};
-use crate::math::{DVec2, DVec3, Ray};
-use crate::optics::MaterialId;
+use crate::math::{DVec2, DVec3, Placement, Ray};
+use crate::optics::{LocalSurface, MaterialId};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -30,16 +30,36 @@ pub struct Surface {
 impl World {
     /// The surface at a hit of `ray`, whose direction is of unit length. Coordinates and their
     /// derivatives are left at 0 on shapes whose material asks for none.
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let placement = &instance.placement;
         let binding = &self.bindings[instance.binding as usize];
-        let (local, part, lifted) = match &self.geometries[instance.geometry as usize] {
+        match &self.geometries[instance.geometry as usize] {
             Geometry::Shape(shape) => {
-                let local = placement.local_ray(ray);
-                let hit = World::shape_hit(hit);
-                let textured = self.materials[binding[0].0 as usize].textured;
-                (if textured { shape.surface(&local, hit) } else { shape.bare_surface(&local, hit) }, 0, None)
+                let material = binding[0];
+                let local_ray = placement.local_ray(ray);
+                let at = World::shape_hit(hit);
+                if self.materials[material.0 as usize].textured {
+                    return placed(ray, hit, placement, &shape.surface(&local_ray, at), material, None);
+                }
+                let bare = shape.bare_surface(&local_ray, at);
+                let p = placement.point(bare.p);
+                let ng = placement.unit_normal(bare.ng);
+                Surface {
+                    t: (p - ray.origin).dot(ray.dir),
+                    p,
+                    p_error: placed_error(placement, p, bare.p, bare.p_error),
+                    ng,
+                    ns: ng,
+                    uv: DVec2::ZERO,
+                    dpdu: DVec3::ZERO,
+                    dpdv: DVec3::ZERO,
+                    local: bare.p,
+                    material,
+                    instance: hit.instance,
+                    shadow_p: p,
+                }
             }
             Geometry::Mesh(mesh) => {
                 let m = &mesh.surface;
@@ -48,31 +68,46 @@ impl World {
                     let front = placement.normal(local.ng).dot(ray.dir) < 0.0;
                     m.shadow_terminator_point(hit.primitive, hit.b, front)
                 });
-                (local, m.part(hit.primitive), lifted)
+                let part = m.part(hit.primitive) as usize;
+                placed(ray, hit, placement, &local, binding[part.min(binding.len() - 1)], lifted)
             }
-        };
-        let p = placement.point(local.p);
-        let ng = placement.unit_normal(local.ng);
-        let ns = if local.ns == local.ng { ng } else { placement.unit_normal(local.ns) };
-        Surface {
-            t: (p - ray.origin).dot(ray.dir),
-            p,
-            p_error: local.p_error * placement.stretch() + rounding(p, local.p, placement.stretch()),
-            ng,
-            ns: if ns.dot(ng) > 0.0 { ns } else { ng },
-            uv: local.uv,
-            dpdu: placement.vector(local.dpdu),
-            dpdv: placement.vector(local.dpdv),
-            local: local.p,
-            material: binding[(part as usize).min(binding.len() - 1)],
-            instance: hit.instance,
-            shadow_p: lifted.map_or(p, |q| placement.point(q)),
         }
     }
 }
 
-/// What double-precision placement adds to a point's error, there and back.
-fn rounding(world: DVec3, local: DVec3, stretch: f64) -> f64 {
+/// `lifted`: where shadow rays start, in object space.
+#[inline(never)]
+fn placed(
+    ray: &Ray,
+    hit: &Hit,
+    placement: &Placement,
+    local: &LocalSurface,
+    material: MaterialId,
+    lifted: Option<DVec3>,
+) -> Surface {
+    let p = placement.point(local.p);
+    let ng = placement.unit_normal(local.ng);
+    let ns = if local.ns == local.ng { ng } else { placement.unit_normal(local.ns) };
+    Surface {
+        t: (p - ray.origin).dot(ray.dir),
+        p,
+        p_error: placed_error(placement, p, local.p, local.p_error),
+        ng,
+        ns: if ns.dot(ng) > 0.0 { ns } else { ng },
+        uv: local.uv,
+        dpdu: placement.vector(local.dpdu),
+        dpdv: placement.vector(local.dpdv),
+        local: local.p,
+        material,
+        instance: hit.instance,
+        shadow_p: lifted.map_or(p, |q| placement.point(q)),
+    }
+}
+
+/// The error of a point in the world: its shape's, and what placement adds to it, there and back.
+#[inline]
+fn placed_error(placement: &Placement, world: DVec3, local: DVec3, error: f64) -> f64 {
     // Sums of the coordinates' sizes bound the lengths, without square roots.
-    16.0 * f64::EPSILON * (world.abs().element_sum() + stretch * local.abs().element_sum())
+    let sum = world.abs().element_sum() + placement.stretch() * local.abs().element_sum();
+    error * placement.stretch() + 16.0 * f64::EPSILON * sum
 }

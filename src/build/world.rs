@@ -122,14 +122,30 @@ impl Geometry {
 impl World {
     /// The nearest hit with 0 < t < t_max.
     pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
-        self.tree.nearest(&box_ray(ray), round_up(t_max), |instance, _| {
-            let limit = best.map_or(t_max, |h| h.t);
-            let hit = self.nearest_of(instance, ray, limit)?;
-            best = Some(hit);
-            Some(round_up(hit.t))
-        });
-        best
+        let mut best = Hit { t: t_max, instance: 0, primitive: 0, b: [0.0; 3] };
+        let mut met = false;
+        self.tree.nearest(
+            &box_ray(ray),
+            round_up(t_max),
+            #[inline(always)]
+            |instance, _| {
+                let placed = &self.instances[instance as usize];
+                let local = placed.placement.local_ray(ray);
+                best = match &self.geometries[placed.geometry as usize] {
+                    Geometry::Shape(shape) => {
+                        let ShapeHit { t, face } = shape.nearest(&local, 0.0, best.t)?;
+                        Hit { t, instance, primitive: face, b: [0.0; 3] }
+                    }
+                    Geometry::Mesh(mesh) => {
+                        let h = mesh.tree.nearest(&box_ray(&local), round_up(best.t))?;
+                        Hit { t: f64::from(h.t), instance, primitive: h.triangle, b: h.b }
+                    }
+                };
+                met = true;
+                Some(round_up(best.t))
+            },
+        );
+        met.then_some(best)
     }
 
     /// The nearest hit of one instance with 0 < t < t_max.

@@ -108,10 +108,12 @@ impl Sequence {
         [unit32(owen(x, a as u32)), unit32(owen(y, (b >> 32) as u32))]
     }
 
-    /// A value of [0, 1), well distributed over the samples.
+    /// A value of [0, 1), well distributed over the samples: the first of the pair.
     #[inline]
     pub fn value(&self) -> f64 {
-        self.pair()[0]
+        let a = mix(self.key);
+        let x = owen(self.index, (a >> 32) as u32).reverse_bits();
+        unit32(owen(x, a as u32))
     }
 }
 

@@ -18,6 +18,7 @@ pub struct Interface {
 impl Interface {
     /// `cos_i` ≥ 0 on the near side; `eta` = n_far / n_near > 0. Defined for every such argument:
     /// equal media reflect nothing, grazing light is reflected wholly otherwise.
+    #[inline]
     pub fn new(cos_i: f64, eta: f64) -> Interface {
         let cos_i = cos_i.clamp(0.0, 1.0);
         if eta == 1.0 {
@@ -36,12 +37,14 @@ impl Interface {
 }
 
 /// The mirror image of `wo` about the unit normal `n`; both point away from the surface.
+#[inline]
 pub fn reflected(wo: DVec3, n: DVec3) -> DVec3 {
     renormalized(n * (2.0 * wo.dot(n)) - wo)
 }
 
 /// The direction in which light that comes along −wo goes on behind the interface. `n` is the unit
 /// normal on wo's side, `cos_t` from [`Interface::new`] with the same `eta`.
+#[inline]
 pub fn refracted(wo: DVec3, n: DVec3, eta: f64, cos_t: f64) -> DVec3 {
     let cos_i = wo.dot(n);
     renormalized((n * (cos_i - eta * cos_t) - wo) * (1.0 / eta))

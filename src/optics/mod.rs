@@ -21,8 +21,8 @@ pub use fresnel::{Interface, reflected, refracted};
 pub use material::{Material, MaterialId, Relief, TextureId, Weight};
 pub use mesh::TriangleMesh;
 pub use shape::{
-    AreaSample, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid, Sphere,
-    sample_triangle_direction, triangle_direction_pdf,
+    AreaSample, BareSurface, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid,
+    Sphere, sample_triangle_direction, triangle_direction_pdf,
 };
 pub use spectrum::{Cauchy, Spectrum, WavelengthSample};
 pub use surface::LocalSurface;

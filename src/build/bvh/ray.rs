@@ -53,8 +53,9 @@ impl BoxRay {
     /// Whether the ray can hit anything at all.
     #[inline]
     pub(super) fn is_valid(&self) -> bool {
-        // The smallest reciprocal is that of the largest component.
-        self.origin.is_finite() && self.inv.abs().min_element().is_finite() && self.dir.is_finite()
+        // 0 times what is not finite is NaN. The smallest reciprocal is that of the largest component.
+        let zero = self.origin * 0.0 + self.dir * 0.0;
+        zero.x + zero.y + zero.z == 0.0 && self.inv.abs().min_element() < f32::INFINITY
     }
 
     /// The largest distance along an axis from the origin to a point of `bounds`.

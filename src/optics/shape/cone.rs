@@ -11,7 +11,7 @@ use super::cuboid::Cuboid;
 use super::disk::sample_ring;
 use super::span::Span;
 use super::sphere::longitude;
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::robust::quadratic_roots;
 use crate::math::{DVec2, DVec3, Ray, sampling};
 use crate::optics::LocalSurface;
@@ -95,52 +95,56 @@ impl Cone {
         n.try_normalize().unwrap_or(DVec3::Y)
     }
 
-    fn side_surface(&self, p: DVec3) -> LocalSurface {
+    /// A point of the side: the direction around the axis, the share of the height, the radius there.
+    fn on_side(&self, p: DVec3) -> (DVec2, f64, f64) {
         let widening = self.top_radius - self.radius;
         let rim = libm::hypot(p.x, p.z);
         let around = if rim > 0.0 { DVec2::new(p.x, p.z) / rim } else { DVec2::ZERO };
         // The nearest point of the generating line.
         let along = (rim - self.radius) * widening + p.y * self.height;
         let v = (along / (self.height * self.height + widening * widening)).clamp(0.0, 1.0);
-        let r = self.radius + v * widening;
-        // So close to the axis the derivative along u is too short to be given a direction.
-        let singular = rim == 0.0 || r <= 1e-30 * self.radius.max(self.top_radius);
-        let ng = self.side_normal(around);
-        LocalSurface {
-            p: DVec3::new(around.x * r, v * self.height, around.y * r),
-            p_error: 0.0,
-            ng,
-            ns: ng,
-            uv: DVec2::new(longitude(DVec3::new(around.x, 0.0, around.y)), v),
-            dpdu: if singular { DVec3::ZERO } else { DVec3::new(around.y, 0.0, -around.x) * (TAU * r) },
-            dpdv: if singular {
-                DVec3::ZERO
-            } else {
-                DVec3::new(around.x * widening, self.height, around.y * widening)
-            },
-        }
+        (around, v, self.radius + v * widening)
     }
 
-    fn cap_surface(&self, p: DVec3, top: bool) -> LocalSurface {
-        let (r, y) = if top { (self.top_radius, self.height) } else { (self.radius, 0.0) };
-        let ng = if top { DVec3::Y } else { DVec3::NEG_Y };
-        let up = if top { DVec3::NEG_Z } else { DVec3::Z };
-        let p = DVec3::new(p.x, y, p.z);
-        LocalSurface {
-            p,
-            p_error: 0.0,
-            ng,
-            ns: ng,
-            uv: DVec2::new(0.5 + 0.5 * (p.x / r), 0.5 + 0.5 * (p.dot(up) / r)).clamp(DVec2::ZERO, DVec2::ONE),
-            dpdu: DVec3::X * (2.0 * r),
-            dpdv: up * (2.0 * r),
+    fn bare_at(&self, p: DVec3, face: u32) -> BareSurface {
+        let (min, max) = self.bounds();
+        let p_error = super::p_error(min, max);
+        match face {
+            SIDE => {
+                let (around, v, r) = self.on_side(p);
+                let p = DVec3::new(around.x * r, v * self.height, around.y * r);
+                BareSurface { p, p_error, ng: self.side_normal(around) }
+            }
+            TOP => BareSurface { p: DVec3::new(p.x, self.height, p.z), p_error, ng: DVec3::Y },
+            _ => BareSurface { p: DVec3::new(p.x, 0.0, p.z), p_error, ng: DVec3::NEG_Y },
         }
     }
 
     fn surface_at(&self, p: DVec3, face: u32) -> LocalSurface {
-        let surface = if face == SIDE { self.side_surface(p) } else { self.cap_surface(p, face == TOP) };
-        let (min, max) = self.bounds();
-        LocalSurface { p_error: super::p_error(min, max), ..surface }
+        let BareSurface { p: on, p_error, ng } = self.bare_at(p, face);
+        let (uv, dpdu, dpdv) =
+            if face == SIDE { self.side_coordinates(p) } else { self.cap_coordinates(p, face == TOP) };
+        LocalSurface { p: on, p_error, ng, ns: ng, uv, dpdu, dpdv }
+    }
+
+    /// uv, ∂p/∂u and ∂p/∂v.
+    fn side_coordinates(&self, p: DVec3) -> (DVec2, DVec3, DVec3) {
+        let (around, v, r) = self.on_side(p);
+        let widening = self.top_radius - self.radius;
+        let uv = DVec2::new(longitude(DVec3::new(around.x, 0.0, around.y)), v);
+        // So close to the axis the derivative along u is too short to be given a direction.
+        if around == DVec2::ZERO || r <= 1e-30 * self.radius.max(self.top_radius) {
+            return (uv, DVec3::ZERO, DVec3::ZERO);
+        }
+        let dpdu = DVec3::new(around.y, 0.0, -around.x) * (TAU * r);
+        (uv, dpdu, DVec3::new(around.x * widening, self.height, around.y * widening))
+    }
+
+    fn cap_coordinates(&self, p: DVec3, top: bool) -> (DVec2, DVec3, DVec3) {
+        let r = if top { self.top_radius } else { self.radius };
+        let up = if top { DVec3::NEG_Z } else { DVec3::Z };
+        let uv = DVec2::new(0.5 + 0.5 * (p.x / r), 0.5 + 0.5 * (p.dot(up) / r));
+        (uv.clamp(DVec2::ZERO, DVec2::ONE), DVec3::X * (2.0 * r), up * (2.0 * r))
     }
 
     fn bounding_box(&self) -> Cuboid {
@@ -172,6 +176,10 @@ impl Surface for Cone {
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         self.surface_at(ray.at(hit.t), hit.face)
+    }
+
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        self.bare_at(ray.at(hit.t), hit.face)
     }
 
     fn closed(&self) -> bool {

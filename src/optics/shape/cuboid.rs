@@ -2,7 +2,7 @@
 
 use super::solid_angle::Rectangle;
 use super::span::Span;
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray, sampling};
 use crate::optics::LocalSurface;
 
@@ -85,18 +85,23 @@ impl Surface for Cuboid {
         self.span(ray)?.nearest(t_min, t_max)
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         let face = hit.face as usize;
         let axis = face / 2;
         let mut p = ray.at(hit.t).clamp(self.min, self.max);
         p[axis] = if face.is_multiple_of(2) { self.min[axis] } else { self.max[axis] };
+        BareSurface { p, p_error: super::p_error(self.min, self.max), ng: Cuboid::normal(face) }
+    }
+
+    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+        let BareSurface { p, p_error, ng } = self.bare_surface(ray, hit);
+        let face = hit.face as usize;
         let (corner, right, up) = self.face(face);
         let from_corner = p - corner;
         let share = |edge: DVec3| (from_corner.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        let ng = Cuboid::normal(face);
         LocalSurface {
             p,
-            p_error: super::p_error(self.min, self.max),
+            p_error,
             ng,
             ns: ng,
             uv: DVec2::new(share(right), share(up)),

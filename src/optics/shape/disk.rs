@@ -1,8 +1,8 @@
 //! The disk or ring in the plane y = 0, normal +y. Its coordinates are those of its bounding square:
 //! u grows along +x, v along −z.
 
-use super::quad::{Quad, plane_crossing, plane_surface, plane_uv};
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::quad::{Quad, bare_plane_surface, plane_crossing, plane_surface, plane_uv};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray, sampling};
 use crate::optics::LocalSurface;
 use std::f64::consts::{PI, TAU};
@@ -48,6 +48,10 @@ impl Surface for Disk {
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         plane_surface(ray.at(hit.t), DVec2::splat(self.radius))
+    }
+
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        bare_plane_surface(ray.at(hit.t), DVec2::splat(self.radius))
     }
 
     fn closed(&self) -> bool {

@@ -48,6 +48,16 @@ pub struct ShapeHit {
     pub face: u32,
 }
 
+/// A surface point without coordinates; a shape's shading normal is its geometric one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BareSurface {
+    pub p: DVec3,
+    /// As `LocalSurface::p_error`.
+    pub p_error: f64,
+    /// As `LocalSurface::ng`.
+    pub ng: DVec3,
+}
+
 /// A point drawn from a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaSample {
@@ -64,8 +74,9 @@ trait Surface {
     fn bounds(&self) -> (DVec3, DVec3);
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit>;
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface;
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        self.surface(ray, hit)
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        let LocalSurface { p, p_error, ng, .. } = self.surface(ray, hit);
+        BareSurface { p, p_error, ng }
     }
     fn clearance(&self, p: DVec3) -> f64;
     fn closed(&self) -> bool;
@@ -106,9 +117,9 @@ impl Shape {
         each!(self, s => s.surface(ray, hit))
     }
 
-    /// The same, but `uv`, `dpdu` and `dpdv` may be left at 0 where they are dear to compute.
+    /// The same without coordinates, which are dear to compute.
     #[inline]
-    pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         each!(self, s => s.bare_surface(ray, hit))
     }
 

@@ -1,7 +1,7 @@
 //! The rectangle in the plane y = 0, normal +y. u grows along +x, v along −z, both over [0, 1].
 
 use super::solid_angle::Rectangle;
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray};
 use crate::optics::LocalSurface;
 
@@ -24,19 +24,20 @@ impl Quad {
 }
 
 /// Where the ray crosses the plane y = 0; `None` if it is parallel to it or does not within the bounds.
+#[inline]
 pub(super) fn plane_crossing(ray: &Ray, t_min: f64, t_max: f64) -> Option<(f64, DVec3)> {
     let t = -ray.origin.y / ray.dir.y;
     (ray.dir.y != 0.0 && t_min < t && t < t_max).then(|| (t, ray.at(t)))
 }
 
 /// The surface point of a plane figure that fills the square or rectangle of this half-extent.
+#[inline]
 pub(super) fn plane_surface(p: DVec3, half: DVec2) -> LocalSurface {
-    let corner = DVec3::new(half.x, 0.0, half.y);
-    let p = DVec3::new(p.x, 0.0, p.z).clamp(-corner, corner);
+    let BareSurface { p, p_error, ng } = bare_plane_surface(p, half);
     LocalSurface {
         p,
-        p_error: super::p_error(-corner, corner),
-        ng: DVec3::Y,
+        p_error,
+        ng,
         ns: DVec3::Y,
         uv: plane_uv(p, half),
         dpdu: DVec3::X * (2.0 * half.x),
@@ -44,6 +45,15 @@ pub(super) fn plane_surface(p: DVec3, half: DVec2) -> LocalSurface {
     }
 }
 
+/// The same without coordinates.
+#[inline]
+pub(super) fn bare_plane_surface(p: DVec3, half: DVec2) -> BareSurface {
+    let corner = DVec3::new(half.x, 0.0, half.y);
+    let p = DVec3::new(p.x, 0.0, p.z).clamp(-corner, corner);
+    BareSurface { p, p_error: super::p_error(-corner, corner), ng: DVec3::Y }
+}
+
+#[inline]
 pub(super) fn plane_uv(p: DVec3, half: DVec2) -> DVec2 {
     DVec2::new(0.5 + 0.5 * (p.x / half.x), 0.5 - 0.5 * (p.z / half.y))
 }
@@ -63,6 +73,11 @@ impl Surface for Quad {
     #[inline]
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
         plane_surface(ray.at(hit.t), self.half)
+    }
+
+    #[inline]
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        bare_plane_surface(ray.at(hit.t), self.half)
     }
 
     fn closed(&self) -> bool {

@@ -1,7 +1,7 @@
 //! The sphere. One face. Its coordinates are longitude and latitude: u from +x towards −z, v from the
 //! bottom pole to the top; both poles are singular.
 
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Frame, Ray, robust, sampling};
 use crate::optics::LocalSurface;
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
@@ -76,22 +76,15 @@ impl Surface for Sphere {
         } else {
             (DVec3::ZERO, DVec3::ZERO)
         };
-        LocalSurface { uv: longitude_latitude(n), dpdu, dpdv, ..bare }
+        let uv = longitude_latitude(n);
+        LocalSurface { p: bare.p, p_error: bare.p_error, ng: n, ns: n, uv, dpdu, dpdv }
     }
 
     #[inline]
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         let outwards = (ray.at(hit.t) - self.center) * self.inverse_radius;
         let n = if outwards == DVec3::ZERO { DVec3::Y } else { robust::renormalized(outwards) };
-        LocalSurface {
-            p: self.center + n * self.radius,
-            p_error: self.p_error,
-            ng: n,
-            ns: n,
-            uv: DVec2::ZERO,
-            dpdu: DVec3::ZERO,
-            dpdv: DVec3::ZERO,
-        }
+        BareSurface { p: self.center + n * self.radius, p_error: self.p_error, ng: n }
     }
 
     fn closed(&self) -> bool {
