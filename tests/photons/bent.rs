@@ -112,7 +112,7 @@ fn a_mapped_mirror_throws_onto_a_floor_what_the_floor_sees_in_it() {
     }
     println!("photons {photons} ± {error}, expected {expected}");
     assert!((photons - expected).abs() < 3.0 * error, "{photons} ± {error}, {expected}");
-    assert!(error < 0.025 * expected);
+    assert!(error < 0.04 * expected);
     // The map matters: a flat mirror differs by much more.
     let (flat, _) = by_photons(none, "", "", &mirror("mirror"));
     assert!((flat - expected).abs() > 6.0 * error, "{flat} instead of {expected} ± {error}");
