@@ -183,7 +183,7 @@ fn a_prism_bends_red_green_and_blue_as_cauchy_says() {
             eye.x, eye.y, entry.x, entry.y
         );
         over_seeds(8, |seed| {
-            let shot = shot(&scene).folder(folder.path()).passes(160).seed(seed);
+            let shot = shot(&scene).folder(folder.path()).passes(512).seed(seed);
             channels(&shot.render())
         })
     };
