@@ -86,7 +86,11 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             "no material disperses",
         ),
         decision(Effect::Absorption, named(&|m| !m.absorption.is_zero()), "no material absorbs inside"),
-        caustics(scene, &named, light(&|_| true).or_else(emitting)),
+        caustics(
+            scene,
+            light(&|_| true).or_else(emitting),
+            named(&|m| !m.reflection.is_zero() || !m.transmission.is_zero()),
+        ),
         decision(
             Effect::Indirect,
             (!scene.indirect.is_off()).then(|| "the scene asks for it".to_owned()),
@@ -108,12 +112,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
 }
 
 /// Light can be focused where there is light, and something that bends or mirrors it.
-fn caustics(
-    scene: &Scene,
-    named: &dyn Fn(&dyn Fn(&Material) -> bool) -> Option<String>,
-    light: Option<String>,
-) -> Decision {
-    let specular = named(&|m| !m.reflection.is_zero() || !m.transmission.is_zero());
+fn caustics(scene: &Scene, light: Option<String>, specular: Option<String>) -> Decision {
     let (on, reason) = match (scene.photons, light, specular) {
         (Photons::Off, _, _) => (false, "the scene turns photons off".to_owned()),
         (_, None, _) => (false, "the scene has no light".to_owned()),

@@ -13,7 +13,7 @@ impl Source {
         let Kind::Parallel { frame, irradiance } = &self.kind else { return None };
         let size = max - min;
         let at = min + size * DVec2::from(u);
-        let ray = self.from_afar(frame, at);
+        let ray = self.ray_of_afar(frame, at);
         let power = *irradiance * (size.x * size.y);
         let media = self.media.unwrap_or_default();
         Some(Start { ray, power, media, t_max: f64::INFINITY, falloff: None })
@@ -21,7 +21,7 @@ impl Source {
 
     /// Power: L/p(ω)·A/k, where `share` of the sky's sampling is this domain and k is the number of
     /// targets that the line meets, each of which would have found it.
-    pub(super) fn from_sky(
+    pub(super) fn sent_by_sky(
         &self,
         world: &World,
         targets: &[Bound],
@@ -45,11 +45,11 @@ impl Source {
             return None;
         }
         let media = self.media.unwrap_or_default();
-        Some(Start { ray: self.from_afar(&frame, at), power, media, t_max: f64::INFINITY, falloff: None })
+        Some(Start { ray: self.ray_of_afar(&frame, at), power, media, t_max: f64::INFINITY, falloff: None })
     }
 
     /// The ray against `frame.n` through a point of the plane perpendicular to it.
-    fn from_afar(&self, frame: &Frame, at: DVec2) -> Ray {
+    fn ray_of_afar(&self, frame: &Frame, at: DVec2) -> Ray {
         let height = self.bound.most(frame.n) + 1e-6 * self.bound.radius;
         Ray { origin: frame.to_world(at.extend(height)), dir: -frame.n }
     }

@@ -128,7 +128,7 @@ impl Source {
             Domain::Rectangle { min, max } => self.through(*min, *max, u[0]),
             Domain::Sky { target, corner, side } => {
                 let square = [corner[0] + side * u[0][0], corner[1] + side * u[0][1]];
-                self.from_sky(world, targets, *target as usize, square, side * side, u[1])
+                self.sent_by_sky(world, targets, *target as usize, square, side * side, u[1])
             }
         }
     }
@@ -151,9 +151,9 @@ impl Source {
                 let power = *intensity * (share * solid_angle);
                 (share > 0.0).then(|| self.start(world, Ray { origin: *position, dir }, power))
             }
-            Kind::Ball { .. } => self.from_ball(world, targets, dir, solid_angle, u),
-            Kind::Shape { instance } => self.from_shape(world, targets, *instance, dir, solid_angle, u),
-            Kind::Mesh { instance } => self.from_mesh(world, *instance, dir, solid_angle, u),
+            Kind::Ball { .. } => self.sent_by_ball(world, targets, dir, solid_angle, u),
+            Kind::Shape { instance } => self.sent_by_shape(world, targets, *instance, dir, solid_angle, u),
+            Kind::Mesh { instance } => self.sent_by_mesh(world, *instance, dir, solid_angle, u),
             Kind::Parallel { .. } | Kind::Sky => None,
         }
     }

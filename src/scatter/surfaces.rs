@@ -23,7 +23,7 @@ struct Point {
 impl Source {
     /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω, or that of
     /// the window from which targets can be met.
-    pub(super) fn from_ball(
+    pub(super) fn sent_by_ball(
         &self,
         world: &World,
         targets: &[Bound],
@@ -61,7 +61,7 @@ impl Source {
     }
 
     /// Power: Lₑ·Ω·|cosθ| / pdf, with the density per area of the world.
-    pub(super) fn from_shape(
+    pub(super) fn sent_by_shape(
         &self,
         world: &World,
         targets: &[Bound],
@@ -100,7 +100,7 @@ impl Source {
     }
 
     /// Power: Lₑ·Ω·|cosθ|·A, the triangle drawn by its share of the area A.
-    pub(super) fn from_mesh(
+    pub(super) fn sent_by_mesh(
         &self,
         world: &World,
         index: u32,

@@ -338,7 +338,7 @@ fn impossible_dispersion_is_refused_with_its_place() {
     ] {
         let text =
             format!("(camera: (eye: (0, 0, 1), target: (0, 0, 0)),\nmaterials: {{ \"m\": {material} }})");
-        let report = load_str(&text, Format::Ron, Path::new(""), &[]).err().expect(material).to_string();
+        let report = load_str(&text, Format::Ron, Path::new(""), &[]).expect_err(material).to_string();
         assert!(report.contains(expected), "{report}\ninstead of {expected}");
     }
 }
