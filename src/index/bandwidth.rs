@@ -18,6 +18,8 @@ pub struct Bandwidth {
     pilot: PhotonMap,
     /// The radius at each of the pilot's photons, in the map's order.
     radii: Vec<f32>,
+    /// A pass's distances over the pilot's.
+    factor: f32,
     min: f32,
     max: f32,
 }
@@ -38,15 +40,15 @@ impl Bandwidth {
             let found = pilot.nearest_radius(p, n, k, farthest);
             found.map_or(max, |r| (r * factor).min(max)).max(min)
         });
-        Bandwidth { pilot, radii, min, max }
+        Bandwidth { pilot, radii, factor, min, max }
     }
 
     /// Metres: about the distance at which the k-th photon would be in a pass's map from the pilot's photon
     /// nearest to `p`, on the side of the unit geometric normal `n`; `max` where no such photon is near.
     #[inline]
     pub fn radius(&self, p: Vec3, n: Vec3) -> f32 {
-        // The distance to the k-th changes no faster than the place.
-        let near = |(place, distance): (usize, f32)| self.radii[place].max(distance);
+        // The k-th is no nearer than the first.
+        let near = |(place, distance): (usize, f32)| self.radii[place].max(distance * self.factor);
         self.pilot.nearest(p, n, self.max).map_or(self.max, near).clamp(self.min, self.max)
     }
 
