@@ -126,7 +126,8 @@ fn both_sides_of_an_open_surface_are_lit() {
     }
 }
 
-/// A highlight narrower than the lamp that it mirrors has no more noise than two choices leave, and its mean is that of one that is drawn from the lamp only (a lamp of many parts, each too small to be wide).
+/// A highlight narrower than the lamp that it mirrors has no more noise than two choices leave, and its
+/// mean is that of one that is drawn from the lamp only (a lamp of many parts, each too small to be wide).
 #[test]
 fn narrow_highlights_of_wide_lamps_are_smooth_and_keep_their_mean() {
     let scene = |lights: &str, passes: &str| {
