@@ -1,7 +1,7 @@
 //! Light between diffuse surfaces: the path goes on from where it has been shaded.
 //!
-//! What such a path meets shines for it by reflected light alone: lights, seen
-//! through glass or not, have been counted where the path left (direct light and caustics).
+//! What such a path meets shines for it by reflected light alone: lights, seen through glass or not,
+//! have been counted where the path left (direct light and caustics).
 
 use super::path::{BOUNCE, Branch};
 use super::{Tally, Tracer};

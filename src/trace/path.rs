@@ -122,7 +122,7 @@ impl Tracer<'_> {
         branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
         let mut shading = Shading::new(self.world, &surface, wo, &branch.cone);
-        if self.wants.first_hit && branch.depth == 0 {
+        if self.wants.first_hit && branch.depth == 0 && branch.bounces == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
         let crossing =

@@ -112,3 +112,24 @@ fn the_variance_of_one_pass_is_refused() {
     let error = shot.try_render().err().expect("an error");
     assert_eq!(error.exit_code(), 2);
 }
+
+/// The first surface is what the camera sees, wherever a path goes on from there.
+#[test]
+fn bounces_change_nothing_of_the_first_surface() {
+    let layers = ["albedo", "normal", "position", "depth", "object_id"];
+    let room = |indirect: &str| {
+        let picture = shot(format!(
+            r#"(camera: (eye: (0, 1, 3), target: (0, 0, 0)), image: (width: 16, height: 12), {indirect}
+            materials: {{ "floor": (diffuse: 0.3), "sky": (diffuse: (0.9, 0.8, 0.7)) }},
+            objects: [(shape: quad(size: (9, 9)), material: "floor"), (shape: sphere(radius: 20), material: "sky")])"#
+        ))
+        .passes(4)
+        .aovs(&[Aov::Albedo, Aov::Normal, Aov::Position, Aov::Depth, Aov::ObjectId])
+        .render();
+        layers.map(|layer| {
+            let channels = &picture.rendered.image.layer(layer).expect("the layer was asked for").channels;
+            channels.iter().map(|(_, values)| values.clone()).collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(room("indirect: true, indirect_by: paths,"), room(""));
+}
