@@ -2,8 +2,8 @@
 //! 8i + c of the next, and below the last level, leaf 8i + c. Leaves that follow one another lie
 //! together in space (they come from a kd-tree, in its order), so that is all it takes.
 
-use super::lanes::{self, Array, Lanes, Work};
 use crate::math::Vec3;
+use crate::math::lanes::{Array, Lanes, Machine, Work};
 
 const WIDTH: usize = 8;
 /// Eight to the tenth leaves are more than a photon's index can count.
@@ -129,7 +129,7 @@ impl Boxes {
     pub fn visit<V: Visitor>(&self, p: Vec3, visitor: &mut V) {
         // Infinity is at no distance from the empty box, and NaN from any.
         if !self.nodes.is_empty() && p.is_finite() {
-            lanes::run(Visit { boxes: self, p, visitor });
+            Machine::detect().run(Visit { boxes: self, p, visitor });
         }
     }
 
@@ -137,7 +137,7 @@ impl Boxes {
     pub fn area_of_a_leaf(&self, p: Vec3) -> f32 {
         let mut area = 0.0;
         if !self.nodes.is_empty() && p.is_finite() {
-            lanes::run(Descend { boxes: self, p, area: &mut area });
+            Machine::detect().run(Descend { boxes: self, p, area: &mut area });
         }
         area
     }
@@ -150,6 +150,8 @@ struct Visit<'a, V> {
 }
 
 impl<V: Visitor> Work for Visit<'_, V> {
+    type Output = ();
+
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
         let Visit { boxes, p, visitor } = self;
@@ -188,6 +190,8 @@ struct Descend<'a> {
 }
 
 impl Work for Descend<'_> {
+    type Output = ();
+
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
         let p = [l.splat(self.p.x), l.splat(self.p.y), l.splat(self.p.z)];

@@ -1,9 +1,9 @@
 //! The photon map and its construction.
 
 use super::boxes::{Bounds, Boxes};
-use super::lanes::Array;
 use super::photon::{NO_DIRECTION, Packed};
 use crate::math::Vec3;
+use crate::math::lanes::Array;
 use crate::scatter::Photon;
 use kiddo::kd_tree::KdTreeAccessor;
 use kiddo::{Eytzinger, FlatVec, KdTree, LeafStrategy};

@@ -9,7 +9,6 @@
 //!
 //! - `photon.rs`: sixteen bytes that hold all of a photon but its position.
 //! - `boxes.rs`: boxes over leaves, visited near a point.
-//! - `lanes.rs`: eight at a time.
 //! - `map.rs`: [`PhotonMap`], its construction.
 //! - `search.rs`: which photons count at a point, within a radius or the k nearest.
 //! - `kernel.rs`, `gather.rs`: the density estimate.
@@ -21,7 +20,6 @@ mod boxes;
 mod caustics;
 mod gather;
 mod kernel;
-mod lanes;
 mod map;
 mod photon;
 mod search;

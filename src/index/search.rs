@@ -13,10 +13,10 @@
 //! evenly lose nothing. The other side of a wall, however thin, has n·n' = −1.
 
 use super::boxes::Visitor;
-use super::lanes::{Array, Lanes};
 use super::map::{HALVES, LEAF, PhotonMap, Positions};
 use super::photon::{NO_DIRECTION, unpack_direction};
 use crate::math::Vec3;
+use crate::math::lanes::{Array, Lanes};
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;

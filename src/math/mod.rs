@@ -5,6 +5,7 @@
 mod aabb;
 mod frame;
 mod health;
+pub mod lanes;
 mod placement;
 pub mod random;
 mod ray;

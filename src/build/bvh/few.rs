@@ -3,10 +3,10 @@
 //! The boxes that a ray enters are listed first and visited afterwards, so that what is visited need
 //! not share registers with the slab test.
 
-use super::lanes::{Lanes, Machine, Work};
 use super::node::{self, Child, EMPTY, Node, Rows};
 use super::ray::{BoxRay, Slabs};
 use crate::math::Aabb;
+use crate::math::lanes::{Lanes, Machine, Work};
 
 /// Boxes at most.
 pub(super) const FEW: usize = 16;
@@ -55,7 +55,7 @@ impl Few {
     /// The largest entry that a box may have to hold a hit at up to `t_max`.
     #[inline]
     pub fn limit(t_max: f32) -> f32 {
-        Slabs::<super::lanes::Portable>::limit(t_max)
+        Slabs::<crate::math::lanes::Portable>::limit(t_max)
     }
 
     /// The boxes that the ray enters at a t in [0, t_max], nearest first if `ordered`.

@@ -3,13 +3,13 @@
 
 use super::binned::{self, Item};
 use super::collapse::{Leaf, collapse};
-use super::lanes::{Lanes, Machine, Work};
 use super::node::{self, MAX_COUNT};
 use super::packet::{self, Packet, Shear, TriangleHit};
 use super::ray::{BoxRay, Slabs};
 use super::store::Store;
 use super::traverse::walk;
 use super::tree::check;
+use crate::math::lanes::{Lanes, Machine, Work};
 use crate::math::{Aabb, Vec3};
 use rayon::prelude::*;
 

@@ -9,7 +9,6 @@
 mod binned;
 mod collapse;
 mod few;
-mod lanes;
 mod mesh;
 mod node;
 mod packet;

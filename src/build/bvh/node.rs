@@ -1,6 +1,6 @@
 //! A node: eight boxes, coordinate by coordinate, and what each of them holds.
 
-use super::lanes::Array;
+use crate::math::lanes::Array;
 use crate::math::{Aabb, Vec3};
 
 /// What a box of a node holds: another node, or a leaf by its number.

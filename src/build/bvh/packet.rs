@@ -6,8 +6,8 @@
 //! one unless it rounds to 0; such lanes, and lanes whose barycentrics do not lead back to the ray
 //! (triangles seen edge-on), are tested in double precision, where the products are exact.
 
-use super::lanes::{Array, Lanes};
 use super::ray::{BoxRay, PROJECTION_ERROR};
+use crate::math::lanes::{Array, Lanes};
 use crate::math::{Aabb, Vec3};
 
 /// The memory of a packet: row 3·i + k is coordinate k of the triangles' vertices i, and the last

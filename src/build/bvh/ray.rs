@@ -6,8 +6,8 @@
 //! Intersection" (JCGT 2(1)), section 3.3: boxes must also cover the rounding of the projected
 //! vertices, so near and far planes see different origins.
 
-use super::lanes::Lanes;
 use super::node::Node;
+use crate::math::lanes::Lanes;
 use crate::math::{Aabb, Vec3};
 
 /// Exits and limits are scaled by 1 + 16u (u = 2⁻²⁴), above Ize's 1 + 2γ₃ ≈ 1 + 6u; the rest

@@ -3,9 +3,9 @@
 //! The stack is a fixed array. A tree deep enough to fill it (many boxes on top of each other) is
 //! finished with a stack on the heap, so no depth can fail.
 
-use super::lanes::Lanes;
 use super::node::{Child, Node, Rows};
 use super::ray::Slabs;
+use crate::math::lanes::Lanes;
 
 const STACK: usize = 48;
 

@@ -4,11 +4,11 @@
 use super::binned::{self, Item};
 use super::collapse::collapse;
 use super::few::{FEW, Few};
-use super::lanes::{Lanes, Machine, Work};
 use super::node::{self, Child, MAX_COUNT, Node, Rows};
 use super::ray::{BoxRay, Slabs};
 use super::traverse::walk;
 use crate::math::Aabb;
+use crate::math::lanes::{Lanes, Machine, Work};
 
 /// A tree over boxes: the top level of a scene.
 #[derive(Clone, Debug)]

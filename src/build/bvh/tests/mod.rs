@@ -4,9 +4,9 @@ mod boxes;
 mod triangles;
 mod watertight;
 
-use super::lanes::Portable;
 use super::packet::{self, Packet, Shear, TriangleHit};
 use super::ray::BoxRay;
+use crate::math::lanes::Portable;
 use crate::math::{Aabb, Vec3};
 
 /// A plain generator for test values (splitmix64), with a fixed seed per test.
