@@ -24,4 +24,6 @@ pub mod film;
 
 pub mod output;
 
+pub mod forecast;
+
 pub mod render;

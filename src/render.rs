@@ -1,24 +1,30 @@
 //! The stages in order, each timed: the whole program on one screen.
 
+mod clock;
 mod image;
 mod options;
 mod photons;
+mod planned;
+mod prepare;
+mod prices;
 mod stats;
 
-use crate::build::{self, Built};
 use crate::description::Loaded;
 use crate::film::Film;
 use crate::math::Rare;
 use crate::output;
-use crate::plan::{Antialiasing, Plan};
-use crate::trace::{self, Tally, Tracer};
+use crate::plan::Plan;
+use crate::trace::{self, Tally};
+use clock::Clock;
 pub use options::{Aov, Options, Progress, RenderError, Silent};
-use photons::PassStages;
+use photons::PassMaps;
 pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};
+pub use planned::Planned;
+use prepare::Prepared;
+pub use prices::Priced;
 use rayon::prelude::*;
-pub use stats::{RareEvent, StageTime, Stats};
+pub use stats::{Memory, RareEvent, SceneSize, StageTime, Stats};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// A finished render.
 #[derive(Debug)]
@@ -31,59 +37,89 @@ pub struct Rendered {
     pub files: Vec<PathBuf>,
 }
 
+/// One sample in so many is timed by its parts.
+const TIMED: u32 = 61;
+
 /// Passes that a tile works through before progress is reported.
 const BATCH: u32 = 8;
 
 /// Renders a checked scene.
 pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-    // A caller that has set up rayon's own threads renders on them.
-    let Some(threads) = options.threads else { return stages(loaded, options, progress) };
+    on_threads(options, || stages(loaded, options, progress))
+}
+
+/// Plans a checked scene: all that [`render`] does before it traces, and what that will take.
+pub fn plan(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Planned, RenderError> {
+    on_threads(options, || {
+        let mut clock = Clock::start();
+        let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
+        Ok(ready.planned(&first, options, progress, &mut clock))
+    })
+}
+
+/// A caller that has set up rayon's own threads renders on them.
+fn on_threads<T: Send>(
+    options: &Options,
+    work: impl FnOnce() -> Result<T, RenderError> + Send,
+) -> Result<T, RenderError> {
+    let Some(threads) = options.threads else { return work() };
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|e| RenderError::Failed(format!("no threads could be started: {e}")))?;
-    pool.install(|| stages(loaded, options, progress))
+    pool.install(work)
 }
 
 fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-    let mut clock = Clock::default();
-    let plan = Plan::new(&loaded.scene, options.passes.clone(), options.seed);
-    options.check(&plan)?;
-    clock.lap("plan");
+    let mut clock = Clock::start();
+    let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
+    let planned = ready.planned(&first, options, progress, &mut clock);
+    let before = prices::first_photons(&first, &clock);
+    let traced = trace_passes(&ready, first, options, progress);
+    clock.lap("trace");
 
-    progress.start("build", 1, "scene");
-    let Built { world, mut warnings, files } = build::build(&loaded.scene, &plan)?;
-    progress.finish();
-    clock.lap("build");
-
-    let wants = options.wants();
-    let mut tracer =
-        Tracer { world: &world, plan: &plan, wants, reference_level: 1.0, caustics: None, indirect: None };
-    if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
-        tracer.reference_level = trace::reference_level(&tracer);
+    let Prepared { plan, world, mut warnings, files, .. } = ready;
+    let Traced { film, tally, photons } = traced;
+    warnings.extend(health_warnings(&tally, &plan));
+    warnings.extend(photons.warnings(plan.max_depth));
+    if options.strict {
+        refuse_excesses(&tally)?;
     }
-    let stages = PassStages::new(&world, &plan);
-    let mut photon_stats = stages.stats(&world);
-    clock.lap("pilot");
+    let image = image::assemble(&film, options);
+    let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
+    let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
+    let prices = prices::beside(&taken, &planned.prices);
+    let stats = Stats::new(clock.stages, &tally, &film, &world, photons, prices, &planned);
+    Ok(Rendered { image, provenance, stats, warnings, files })
+}
 
-    let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(&wants));
+/// What tracing leaves.
+struct Traced {
+    film: Film,
+    tally: Tally,
+    photons: AllPhotons,
+}
+
+fn trace_passes(ready: &Prepared, first: PassMaps, options: &Options, progress: &dyn Progress) -> Traced {
+    let Prepared { plan, world, wants, stages, .. } = ready;
+    let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(wants));
     let mut tally = Tally::default();
+    let mut photons = stages.stats(world);
     progress.start("trace", film.tiles.len() as u64 * u64::from(plan.passes), "tiles");
     let last = plan.first_pass + plan.passes;
     let batch = if stages.one_map() { BATCH } else { 1 };
-    let mut photons = stages.pass(&world, plan.first_pass);
+    let mut maps = first;
     for first in (plan.first_pass..last).step_by(batch as usize) {
         let passes = first..(first + batch).min(last);
         if batch == 1 || first == plan.first_pass {
-            stages.count(&mut photon_stats, &mut tally.health, &photons);
+            stages.count(&mut photons, &mut tally.health, &maps);
         }
-        let tracer =
-            Tracer { caustics: stages.caustics(&photons), indirect: stages.indirect(&photons), ..tracer };
+        let tracer = ready.tracer(&maps);
         let trace = || -> Vec<Tally> {
             film.tiles
                 .par_iter_mut()
                 .map(|tile| {
-                    let tally = trace::passes(&tracer, passes.clone(), tile);
+                    let tally = trace::passes(&tracer, passes.clone(), tile, TIMED);
                     progress.advance(u64::from(passes.end - passes.start));
                     tally
                 })
@@ -91,37 +127,12 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         };
         // The next pass's photons are scattered beside this pass's tiles.
         let another = batch == 1 && passes.end < last;
-        let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(&world, passes.end)));
+        let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(world, passes.end)));
         tallies.iter().for_each(|t| tally.add(t));
-        photons = next.unwrap_or(photons);
+        maps = next.unwrap_or(maps);
     }
     progress.finish();
-    clock.lap("trace");
-
-    warnings.extend(health_warnings(&tally, &plan));
-    warnings.extend(photon_stats.warnings(plan.max_depth));
-    if options.strict {
-        refuse_excesses(&tally)?;
-    }
-    let image = image::assemble(&film, options);
-    let stats = Stats::new(clock.stages, &tally, &plan, &film, &world, photon_stats);
-    let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
-    Ok(Rendered { image, provenance, stats, warnings, files })
-}
-
-#[derive(Default)]
-struct Clock {
-    stages: Vec<StageTime>,
-    last: Option<Instant>,
-}
-
-impl Clock {
-    fn lap(&mut self, name: &str) {
-        let now = Instant::now();
-        let seconds = self.last.map_or(0.0, |last| (now - last).as_secs_f64());
-        self.last = Some(now);
-        self.stages.push(StageTime { name: name.to_owned(), seconds });
-    }
+    Traced { film, tally, photons }
 }
 
 fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module with those that it may name, in the order of the pipeline.
-const TABLE: [(&str, &[&str]); 13] = [
+const TABLE: [(&str, &[&str]); 14] = [
     ("math", &[]),
     ("optics", &["math"]),
     ("description", &["math"]),
@@ -19,9 +19,22 @@ const TABLE: [(&str, &[&str]); 13] = [
     ("trace", &["math", "optics", "plan", "build", "index"]),
     ("film", &["math", "trace"]),
     ("output", &["math", "plan", "film"]),
+    ("forecast", &["math", "plan", "trace"]),
     (
         "render",
-        &["math", "optics", "description", "plan", "build", "scatter", "index", "trace", "film", "output"],
+        &[
+            "math",
+            "optics",
+            "description",
+            "plan",
+            "build",
+            "scatter",
+            "index",
+            "trace",
+            "film",
+            "output",
+            "forecast",
+        ],
     ),
     ("measure", &["math", "description", "plan", "film", "output", "render"]),
     // part of the program, not of the library: it sees the library from outside

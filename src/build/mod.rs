@@ -34,7 +34,7 @@ pub use media::MediaSet;
 pub use shading::Shading;
 use std::path::PathBuf;
 pub use surface::Surface;
-pub use world::{Geometry, Hit, Instance, World};
+pub use world::{Geometry, Hit, Instance, Mesh, World};
 
 /// Why a world could not be built.
 #[derive(Debug, thiserror::Error)]

@@ -3,7 +3,7 @@
 use crate::description::{Light, Material, Photons, Scene, Source};
 use std::fmt;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum Effect {
     Direct,
     SoftShadows,
@@ -39,7 +39,7 @@ impl Effect {
 }
 
 /// Whether an effect runs, and why.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Decision {
     pub effect: Effect,
     pub on: bool,

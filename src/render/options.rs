@@ -1,5 +1,6 @@
 //! What a caller asks of a render beyond the scene, and what it may be told.
 
+use super::Planned;
 use crate::build::BuildError;
 use crate::plan::{Antialiasing, Plan};
 use crate::trace::Wants;
@@ -146,6 +147,8 @@ pub trait Progress: Sync {
     fn advance(&self, done: u64);
     /// The stage is over.
     fn finish(&self);
+    /// What the render will take is known, and tracing begins.
+    fn planned(&self, _: &Planned) {}
     /// Something worth a line.
     fn note(&self, message: &str);
 }

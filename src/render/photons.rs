@@ -2,10 +2,12 @@
 
 use crate::build::World;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
+use crate::forecast::PhotonSeconds;
 use crate::math::Health;
 use crate::plan::{self, IndirectBy, PhotonBudget, PhotonEngine, Plan};
 use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
+use std::time::Instant;
 
 /// Photons of the pilot from which the first radius comes.
 const PILOT: (u32, u32) = (10_000, 100_000);
@@ -40,6 +42,8 @@ pub struct PassPhotons {
     emitted: u64,
     ledger: Ledger,
     health: Health,
+    /// Wall time of making them.
+    seconds: f64,
 }
 
 impl PhotonStage {
@@ -95,19 +99,30 @@ impl PhotonStage {
 
     /// The photons of a pass; where one map serves all, those of the first.
     pub fn pass(&self, world: &World, pass: u32) -> PassPhotons {
+        let began = Instant::now();
         let pass = if self.one_map() { 0 } else { pass };
         let Scattered { photons, ledger, emitted, health, .. } =
             self.emission.scatter(world, pass, self.budget.count.into());
-        let factor = match self.reach {
+        let factor = self.factor(pass);
+        let map = PhotonMap::new(photons);
+        PassPhotons { map, factor, emitted, ledger, health, seconds: began.elapsed().as_secs_f64() }
+    }
+
+    /// A pass's radius over the first's.
+    fn factor(&self, pass: u32) -> f32 {
+        match self.reach {
             Rule::Shrinking { alpha, .. } => shrink(pass, alpha) as f32,
             Rule::Nearest { .. } => 1.0,
-        };
-        PassPhotons { map: PhotonMap::new(photons), factor, emitted, ledger, health }
+        }
     }
 
     pub fn caustics<'a>(&'a self, photons: &'a PassPhotons) -> Caustics<'a> {
+        self.gathered(photons, photons.factor)
+    }
+
+    fn gathered<'a>(&'a self, photons: &'a PassPhotons, factor: f32) -> Caustics<'a> {
         let reach = match &self.reach {
-            Rule::Shrinking { first, .. } => Reach::Shrinking { first, factor: photons.factor },
+            Rule::Shrinking { first, .. } => Reach::Shrinking { first, factor },
             Rule::Nearest { k } => Reach::Nearest { k: *k, max: self.max_radius },
         };
         Caustics { map: &photons.map, kernel: self.kernel, reach }
@@ -124,6 +139,22 @@ pub struct PassStages {
 pub struct PassMaps {
     caustic: Option<PassPhotons>,
     indirect: Option<PassPhotons>,
+    /// Wall time of making both.
+    seconds: f64,
+}
+
+impl PassMaps {
+    /// Wall time of making them, by what they are for.
+    pub fn seconds(&self) -> PhotonSeconds {
+        let of = |photons: &Option<PassPhotons>| photons.as_ref().map_or(0.0, |photons| photons.seconds);
+        let each = PhotonSeconds { caustics: of(&self.caustic), indirect: of(&self.indirect) };
+        // Both are made at once, and each waits for the other.
+        each.times(self.seconds / each.sum().max(f64::MIN_POSITIVE))
+    }
+
+    pub fn memory_bytes(&self) -> usize {
+        [&self.caustic, &self.indirect].into_iter().flatten().map(|photons| photons.map.memory_bytes()).sum()
+    }
 }
 
 impl PassStages {
@@ -141,8 +172,9 @@ impl PassStages {
 
     pub fn pass(&self, world: &World, pass: u32) -> PassMaps {
         let of = |stage: &Option<PhotonStage>| stage.as_ref().map(|stage| stage.pass(world, pass));
+        let began = Instant::now();
         let (caustic, indirect) = rayon::join(|| of(&self.caustic), || of(&self.indirect));
-        PassMaps { caustic, indirect }
+        PassMaps { caustic, indirect, seconds: began.elapsed().as_secs_f64() }
     }
 
     pub fn caustics<'a>(&'a self, maps: &'a PassMaps) -> Option<Caustics<'a>> {
@@ -151,6 +183,22 @@ impl PassStages {
 
     pub fn indirect<'a>(&'a self, maps: &'a PassMaps) -> Option<Caustics<'a>> {
         Some(self.indirect.as_ref()?.caustics(maps.indirect.as_ref()?))
+    }
+
+    /// As if the photons were those of pass number `pass`.
+    pub fn caustics_of<'a>(&'a self, maps: &'a PassMaps, pass: u32) -> Option<Caustics<'a>> {
+        let stage = self.caustic.as_ref()?;
+        Some(stage.gathered(maps.caustic.as_ref()?, stage.factor(pass)))
+    }
+
+    pub fn indirect_of<'a>(&'a self, maps: &'a PassMaps, pass: u32) -> Option<Caustics<'a>> {
+        let stage = self.indirect.as_ref()?;
+        Some(stage.gathered(maps.indirect.as_ref()?, stage.factor(pass)))
+    }
+
+    /// Whether there are photons at all.
+    pub fn any(&self) -> bool {
+        self.caustic.is_some() || self.indirect.is_some()
     }
 
     pub(super) fn stats(&self, world: &World) -> AllPhotons {

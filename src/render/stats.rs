@@ -1,10 +1,9 @@
 //! What a render cost and counted, for people and machines.
 
-use super::AllPhotons;
-use crate::build::{Geometry, World};
+use super::{AllPhotons, Planned, Priced};
+use crate::build::{Geometry, Mesh, World};
 use crate::film::Film;
 use crate::math::Rare;
-use crate::plan::Plan;
 use crate::trace::{Rays, Tally};
 use serde::Serialize;
 
@@ -12,6 +11,11 @@ use serde::Serialize;
 #[derive(Clone, Debug, Serialize)]
 pub struct Stats {
     pub stages: Vec<StageTime>,
+    /// What the stages' time was spent on, beside what was predicted.
+    pub prices: Vec<Priced>,
+    /// Of all stages, as it was before the first tile.
+    pub predicted_seconds: f64,
+    pub predicted_peak_bytes: Option<u64>,
     pub passes: u32,
     /// Camera samples.
     pub samples: u64,
@@ -69,10 +73,11 @@ impl Stats {
     pub(super) fn new(
         stages: Vec<StageTime>,
         tally: &Tally,
-        plan: &Plan,
         film: &Film,
         world: &World,
         photons: AllPhotons,
+        prices: Vec<Priced>,
+        planned: &Planned,
     ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
@@ -81,41 +86,52 @@ impl Stats {
             of: health.samples,
             allowed: event.allowed(),
         });
-        let meshes = || {
-            world.geometries.iter().filter_map(|g| match g {
-                Geometry::Mesh(mesh) => Some(mesh),
-                Geometry::Shape(_) => None,
-            })
-        };
-        let mut stats = Stats {
+        Stats {
             stages,
-            passes: plan.passes,
+            prices,
+            predicted_seconds: planned.seconds,
+            predicted_peak_bytes: planned.peak_bytes,
+            passes: planned.passes,
             samples: health.samples,
             rays: tally.rays,
             truncated_paths: tally.cut.paths,
             truncated_weight: tally.cut.weight / (health.samples.max(1) as f64),
             rare_events: rare_events.collect(),
-            photons: AllPhotons::default(),
-            memory: Memory {
-                photons_bytes: [&photons.photons, &photons.indirect_photons]
-                    .into_iter()
-                    .flatten()
-                    .map(|p| p.map_bytes)
-                    .sum(),
-                geometry_bytes: meshes().map(|m| m.surface.memory_bytes()).sum::<usize>()
-                    + size_of_val(world.instances.as_slice()),
-                trees_bytes: meshes().map(|m| m.tree.memory_bytes()).sum::<usize>()
-                    + world.tree.memory_bytes(),
-                textures_bytes: world.textures.iter().map(|t| t.memory_bytes()).sum(),
-                film_bytes: film.memory_bytes(),
-            },
-            scene: SceneSize {
-                instances: world.instances.len(),
-                triangles: meshes().map(|m| m.surface.triangles.len()).sum(),
-                emitters: world.emitters.len(),
-            },
-        };
-        stats.photons = photons;
-        stats
+            memory: Memory::of(world, film.memory_bytes(), &photons),
+            scene: SceneSize::of(world),
+            photons,
+        }
+    }
+}
+
+fn meshes(world: &World) -> impl Iterator<Item = &Mesh> {
+    world.geometries.iter().filter_map(|geometry| match geometry {
+        Geometry::Mesh(mesh) => Some(mesh),
+        Geometry::Shape(_) => None,
+    })
+}
+
+impl Memory {
+    pub(super) fn of(world: &World, film_bytes: usize, photons: &AllPhotons) -> Memory {
+        let photons = [&photons.photons, &photons.indirect_photons].into_iter().flatten();
+        Memory {
+            geometry_bytes: meshes(world).map(|m| m.surface.memory_bytes()).sum::<usize>()
+                + size_of_val(world.instances.as_slice()),
+            trees_bytes: meshes(world).map(|m| m.tree.memory_bytes()).sum::<usize>()
+                + world.tree.memory_bytes(),
+            textures_bytes: world.textures.iter().map(|t| t.memory_bytes()).sum(),
+            film_bytes,
+            photons_bytes: photons.map(|p| p.map_bytes).sum(),
+        }
+    }
+}
+
+impl SceneSize {
+    pub(super) fn of(world: &World) -> SceneSize {
+        SceneSize {
+            instances: world.instances.len(),
+            triangles: meshes(world).map(|m| m.surface.triangles.len()).sum(),
+            emitters: world.emitters.len(),
+        }
     }
 }

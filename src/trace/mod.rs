@@ -12,6 +12,7 @@ mod path;
 mod reference_level;
 mod sample;
 mod tile;
+mod watch;
 
 use crate::build::World;
 use crate::index::Caustics;
@@ -21,7 +22,9 @@ pub use path::Scratch;
 pub use reference_level::reference_level;
 pub use sample::{Sample, Wants};
 use serde::Serialize;
+use std::time::Instant;
 pub use tile::{Layer, Layers, PixelValue, Tile};
+pub use watch::{Part, Spent, Watch};
 
 /// Rays by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -48,6 +51,9 @@ pub struct Tally {
     pub rays: Rays,
     pub health: Health,
     pub cut: Cut,
+    pub watch: Watch,
+    /// Of one thread, on tiles.
+    pub seconds: f64,
 }
 
 /// Paths that the depth limit has cut.
@@ -70,6 +76,8 @@ impl Tally {
         self.health.add(&other.health);
         self.cut.paths += other.cut.paths;
         self.cut.weight += other.cut.weight;
+        self.watch.add(&other.watch);
+        self.seconds += other.seconds;
     }
 }
 
@@ -86,13 +94,16 @@ pub struct Tracer<'a> {
     pub indirect: Option<Caustics<'a>>,
 }
 
-/// Adds the passes of `passes` to a tile, in order.
-pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile) -> Tally {
-    let mut tally = Tally::default();
+/// Adds the passes of `passes` to a tile, in order, and times one sample in `timed` by its parts.
+pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile, timed: u32) -> Tally {
+    let began = Instant::now();
+    let mut tally = Tally { watch: Watch::new(timed), ..Tally::default() };
     let mut scratch = Scratch::new(tracer);
     for pass in passes {
         antialias::pass(tracer, pass, tile, &mut scratch, &mut tally);
     }
+    tally.watch.end();
+    tally.seconds = began.elapsed().as_secs_f64();
     tally
 }
 

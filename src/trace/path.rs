@@ -12,7 +12,7 @@
 
 use super::bounce;
 use super::sample::FirstHit;
-use super::{Sample, Tally, Tracer};
+use super::{Part, Sample, Tally, Tracer};
 use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{DVec2, Ray, Vec3};
@@ -46,6 +46,18 @@ pub(super) struct Branch {
     pub wavelength: Option<f64>,
     pub sequence: Sequence,
     pub class: Class,
+}
+
+impl Branch {
+    /// What the time of following it counts to.
+    fn part(&self) -> Part {
+        match self.class {
+            _ if self.bounces > 0 => Part::Bounce,
+            Class::Direct => Part::Camera,
+            Class::Reflection => Part::Reflection,
+            Class::Refraction => Part::Refraction,
+        }
+    }
 }
 
 /// Dimensions of a path vertex's random values.
@@ -92,6 +104,7 @@ impl Tracer<'_> {
         };
         tally.rays.camera += 1;
         tally.health.samples += 1;
+        tally.watch.begin();
         let mut sample = Sample::default();
         scratch.branches.clear();
         let mut branch = Branch {
@@ -115,6 +128,7 @@ impl Tracer<'_> {
     }
 
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
+        tally.watch.enter(branch.part());
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
             return self.deposit(sample, branch, self.leaving(branch));
         };
@@ -273,9 +287,11 @@ impl Tracer<'_> {
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
+        tally.watch.enter(Part::Direct);
         let mut radiance = base * self.world.ambient
             + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
         if let Some(caustics) = &self.caustics {
+            tally.watch.enter(Part::Caustics);
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
             if branch.bounces == 0 {
@@ -288,11 +304,14 @@ impl Tracer<'_> {
             }
         }
         if let Some(indirect) = &self.indirect {
+            tally.watch.enter(Part::Indirect);
             let gathered = self.caustic(indirect, branch, base, surface, shading, tally).radiance;
             sample.indirect += branch.throughput * gathered;
-            return radiance + gathered;
+            radiance += gathered;
         }
-        if branch.bounces < self.plan.bounces
+        tally.watch.enter(branch.part());
+        if self.indirect.is_none()
+            && branch.bounces < self.plan.bounces
             && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
         {
             self.push(next, weight, BOUNCE, branch.class, todo, tally);

@@ -79,6 +79,12 @@ pub struct Tile {
 }
 
 impl Tile {
+    /// Of sums that keep these layers.
+    pub fn bytes_per_pixel(layers: Layers) -> usize {
+        let tile = Tile::new(0, 0, 1, 1, layers);
+        tile.memory_bytes()
+    }
+
     pub fn new(x: u32, y: u32, width: u32, height: u32, layers: Layers) -> Tile {
         let n = width as usize * height as usize;
         let if_kept = |kept: bool| if kept { n } else { 0 };

@@ -1,0 +1,44 @@
+//! `plan --measure`: the scene rendered with each effect left out in turn.
+
+use super::exit::Failure;
+use super::progress::duration;
+use serde::Serialize;
+use terrarium::description::Loaded;
+use terrarium::measure::{self, LeftOut};
+use terrarium::render::{Options, Planned, Progress};
+
+/// What each effect costs, and brings.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub struct Table(measure::Prices);
+
+pub fn table(
+    loaded: &Loaded,
+    options: &Options,
+    planned: &Planned,
+    progress: &dyn Progress,
+) -> Result<Table, Failure> {
+    Ok(Table(measure::prices(loaded, options, &planned.effects, progress)?))
+}
+
+impl Table {
+    /// A row an effect.
+    pub fn text(&self) -> String {
+        let mut text = format!("measured: {} with all of it; left out,\n", duration(self.0.seconds));
+        for LeftOut { effect, seconds, relative_rms, mean_change } in &self.0.left_out {
+            text += &format!(
+                "  {:15} {} ({:+.1} %) and the image changes by {} (mean {:+.2} %)\n",
+                effect.name(),
+                duration(*seconds),
+                100.0 * (seconds / self.0.seconds - 1.0),
+                percent(*relative_rms),
+                100.0 * mean_change,
+            );
+        }
+        text
+    }
+}
+
+fn percent(share: f64) -> String {
+    if share == 0.0 { "nothing".to_owned() } else { format!("{:.2} %", 100.0 * share) }
+}

@@ -1,0 +1,152 @@
+//! `plan`: what a render would do, why, and what that would take.
+
+use super::args::PlanArgs;
+use super::check::{load_and_report, set_threads};
+use super::exit::Failure;
+use super::measure;
+use super::progress::{Reporter, duration, short};
+use super::report::{self, Terminal};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Instant;
+use terrarium::description::Loaded;
+use terrarium::render::{self, Planned};
+
+/// Everything that `--json` prints of one scene.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    version: &'static str,
+    scene: String,
+    scene_hash: &'a str,
+    width: u32,
+    height: u32,
+    threads: usize,
+    /// Reading the scene.
+    load_seconds: f64,
+    #[serde(flatten)]
+    planned: &'a Planned,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measured: Option<&'a measure::Table>,
+}
+
+pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
+    set_threads(args.work.threads)?;
+    let mut documents = Vec::new();
+    for scene in &args.scenes {
+        let began = Instant::now();
+        let loaded = load_and_report(scene, &args.reading, terminal)?;
+        let load_seconds = began.elapsed().as_secs_f64();
+        let options = args.work.options();
+        let reporter = Reporter::new(args.progress, args.quiet, terminal);
+        let planned = render::plan(&loaded, &options, &reporter);
+        let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
+        let measured = if args.measure {
+            Some(measure::table(&loaded, &options, &planned, &reporter)?)
+        } else {
+            None
+        };
+        if args.json {
+            let image = &loaded.scene.image;
+            let document = Document {
+                version: env!("CARGO_PKG_VERSION"),
+                scene: scene.display().to_string(),
+                scene_hash: &loaded.hash,
+                width: image.width,
+                height: image.height,
+                threads: rayon::current_num_threads(),
+                load_seconds,
+                planned: &planned,
+                measured: measured.as_ref(),
+            };
+            documents.push(serde_json::to_value(&document).expect("numbers, strings and maps of strings"));
+        } else {
+            let mut text = format!("{}\n", heading(scene, &loaded, &planned));
+            text += &lines(&planned);
+            if let Some(table) = &measured {
+                text += &table.text();
+            }
+            report::print(&text)?;
+        }
+    }
+    if args.json {
+        let one = documents.len() == 1;
+        let all = serde_json::Value::Array(documents);
+        report::print(&format!("{:#}\n", if one { &all[0] } else { &all }))?;
+    }
+    Ok(())
+}
+
+fn heading(scene: &PathBuf, loaded: &Loaded, planned: &Planned) -> String {
+    let image = &loaded.scene.image;
+    let passes = if planned.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", planned.passes) };
+    format!("{}: {} × {} pixels, {passes}", scene.display(), image.width, image.height)
+}
+
+/// One line an effect, then what all of it takes.
+fn lines(planned: &Planned) -> String {
+    let mut text = String::new();
+    for decision in &planned.effects {
+        let seconds = planned.prices.of(decision.effect.key());
+        let price = if seconds > 0.0 { format!("; {}", duration(seconds)) } else { String::new() };
+        text += &format!("  {decision}{price}\n");
+    }
+    text += &format!("rays: {}\n", rays(planned));
+    for (what, photons) in [
+        ("photons", &planned.photons.photons),
+        ("indirect photons", &planned.photons.indirect_photons),
+    ] {
+        if let Some(photons) = photons {
+            text += &format!(
+                "{what}: {} sent out a map, {} stored\n",
+                short(photons.emitted as f64),
+                short(photons.stored as f64)
+            );
+        }
+    }
+    text += &format!("time: {}\n", time(planned));
+    if let Some(memory) = memory(planned) {
+        text += &format!("memory: {memory}\n");
+    }
+    text
+}
+
+fn rays(planned: &Planned) -> String {
+    let rays = serde_json::to_value(planned.rays).unwrap_or_default();
+    let rays = rays.as_object().into_iter().flatten();
+    let kinds: Vec<String> = rays
+        .filter_map(|(kind, count)| Some((kind, count.as_f64().filter(|count| *count > 0.0)?)))
+        .map(|(kind, count)| format!("{kind} {}", short(count)))
+        .collect();
+    kinds.join(", ")
+}
+
+/// The whole, by stage.
+fn time(planned: &Planned) -> String {
+    let stages: Vec<String> = planned
+        .stages
+        .iter()
+        .filter(|stage| stage.seconds >= 0.005)
+        .map(|stage| format!("{} {}", stage.name, duration(stage.seconds)))
+        .collect();
+    format!("about {} ({})", duration(planned.seconds), stages.join(", "))
+}
+
+fn memory(planned: &Planned) -> Option<String> {
+    Some(format!("about {:.0} MiB at most", planned.peak_bytes? as f64 / f64::from(1 << 20)))
+}
+
+/// The paragraph that a render begins with: which effects, and what they will take.
+pub fn summary(planned: &Planned) -> String {
+    let on: Vec<String> = planned
+        .effects
+        .iter()
+        .filter(|decision| decision.on)
+        .map(|decision| {
+            let seconds = planned.prices.of(decision.effect.key());
+            let name = decision.effect.name();
+            if seconds >= 0.05 { format!("{name} {}", duration(seconds)) } else { name.to_owned() }
+        })
+        .collect();
+    let memory = memory(planned).map_or(String::new(), |memory| format!(", {memory}"));
+    format!("plan: {}; in all {}{memory}", on.join(", "), time(planned))
+}

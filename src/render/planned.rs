@@ -1,0 +1,74 @@
+//! What a render will do and what that will take.
+
+use super::clock::Clock;
+use super::photons::PassMaps;
+use super::prepare::Prepared;
+use super::prices::first_photons;
+use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
+use crate::forecast::{Bill, Cost, memory};
+use crate::plan::Decision;
+use crate::trace::{self, Rays};
+use serde::Serialize;
+
+/// A plan with its prices, on this machine. Serialised as it stands by `terrarium plan --json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Planned {
+    pub effects: Vec<Decision>,
+    pub passes: u32,
+    /// Wall seconds from reading the plan to the finished image in memory.
+    pub seconds: f64,
+    /// The same by stage: those before `trace` are measured.
+    pub stages: Vec<StageTime>,
+    /// By what they are spent on; building and the forecast itself are not in it.
+    pub prices: Bill,
+    /// Camera samples.
+    pub samples: u64,
+    pub rays: Rays,
+    /// Of the first pass: each further one sends out as many.
+    #[serde(flatten)]
+    pub photons: AllPhotons,
+    /// Highest memory of the process, where the system tells what it holds.
+    pub peak_bytes: Option<u64>,
+    pub memory: Memory,
+    #[serde(rename = "scene_size")]
+    pub scene: SceneSize,
+}
+
+impl Planned {
+    pub(super) fn new(
+        ready: &Prepared,
+        first: &PassMaps,
+        options: &Options,
+        clock: &Clock,
+        cost: Cost,
+    ) -> Planned {
+        let Prepared { plan, world, wants, stages, .. } = ready;
+        let mut photons = stages.stats(world);
+        stages.count(&mut photons, &mut Default::default(), first);
+        let pixels = u64::from(world.camera.width) * u64::from(world.camera.height);
+        let film = pixels * trace::Tile::bytes_per_pixel(trace::layers(wants)) as u64;
+        let several = plan.passes > 1 && !stages.one_map();
+        let later = memory::Later {
+            film,
+            photons: if several { ready.photon_bytes() } else { 0 },
+            image: pixels * 4 * (3 + 3 * options.aovs.len() as u64),
+        };
+        let mut prices = cost.bill;
+        prices.add_photons(first_photons(first, clock));
+        let mut done = clock.stages.clone();
+        done.push(StageTime { name: "trace".to_owned(), seconds: cost.seconds });
+        Planned {
+            effects: plan.decisions.clone(),
+            passes: plan.passes,
+            seconds: clock.sum() + cost.seconds,
+            stages: done,
+            prices,
+            samples: cost.samples,
+            rays: cost.rays,
+            peak_bytes: memory::held().map(|held| held.peak(&later)),
+            memory: Memory::of(world, film as usize, &photons),
+            scene: SceneSize::of(world),
+            photons,
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Everything before the first tile: the plan, the world, pilots, the first pass's photons, a forecast.
+
+use super::clock::Clock;
+use super::photons::{PassMaps, PassStages};
+use super::{Options, Planned, Progress, RenderError};
+use crate::build::{self, Built, World};
+use crate::description::Loaded;
+use crate::forecast::{Cost, Pace, PhotonSeconds, memory};
+use crate::plan::{Antialiasing, Plan};
+use crate::trace::{self, Tracer, Wants};
+use std::path::PathBuf;
+
+/// A render that is ready to trace.
+pub(super) struct Prepared {
+    pub plan: Plan,
+    pub world: World,
+    pub wants: Wants,
+    pub warnings: Vec<String>,
+    pub files: Vec<PathBuf>,
+    pub stages: PassStages,
+    reference_level: f32,
+    /// Bytes that making a pass's photons takes beyond what was held before.
+    photon_bytes: u64,
+}
+
+impl Prepared {
+    /// The world with its pilots, and the photons of its first pass.
+    pub fn new(
+        loaded: &Loaded,
+        options: &Options,
+        progress: &dyn Progress,
+        clock: &mut Clock,
+    ) -> Result<(Prepared, PassMaps), RenderError> {
+        let plan = Plan::new(&loaded.scene, options.passes.clone(), options.seed);
+        options.check(&plan)?;
+        clock.lap("plan");
+
+        progress.start("build", 1, "scene");
+        let Built { world, warnings, files } = build::build(&loaded.scene, &plan)?;
+        progress.finish();
+        clock.lap("build");
+
+        let wants = options.wants();
+        let mut reference_level = 1.0;
+        if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
+            let tracer = Tracer {
+                world: &world,
+                plan: &plan,
+                wants,
+                reference_level,
+                caustics: None,
+                indirect: None,
+            };
+            reference_level = trace::reference_level(&tracer);
+        }
+        let stages = PassStages::new(&world, &plan);
+        if stages.any() {
+            clock.lap("pilot");
+        }
+        let before = memory::held();
+        let first = stages.pass(&world, plan.first_pass);
+        let after = memory::held();
+        if stages.any() {
+            clock.lap("photons");
+        }
+        let photon_bytes = match (before, after) {
+            (Some(before), Some(after)) => after.most.max(after.now).saturating_sub(before.now),
+            _ => first.memory_bytes() as u64,
+        };
+        let photon_bytes = if stages.any() { photon_bytes } else { 0 };
+        let ready = Prepared { plan, world, wants, warnings, files, stages, reference_level, photon_bytes };
+        Ok((ready, first))
+    }
+
+    /// Traces passes with the photons of one of them.
+    pub fn tracer<'a>(&'a self, maps: &'a PassMaps) -> Tracer<'a> {
+        Tracer {
+            world: &self.world,
+            plan: &self.plan,
+            wants: self.wants,
+            reference_level: self.reference_level,
+            caustics: self.stages.caustics(maps),
+            indirect: self.stages.indirect(maps),
+        }
+    }
+
+    /// What all of it will take.
+    pub fn planned(
+        &self,
+        first: &PassMaps,
+        options: &Options,
+        progress: &dyn Progress,
+        clock: &mut Clock,
+    ) -> Planned {
+        // Radii shrink; this pass's is the typical one.
+        let typical = self.plan.first_pass + (TYPICAL * f64::from(self.plan.passes)) as u32;
+        let tracer = Tracer {
+            caustics: self.stages.caustics_of(first, typical),
+            indirect: self.stages.indirect_of(first, typical),
+            ..self.tracer(first)
+        };
+        let pace = Pace::measure(&tracer, typical);
+        let threads = rayon::current_num_threads() as f64;
+        let later = if self.stages.one_map() { PhotonSeconds::default() } else { first.seconds() };
+        let cost = Cost::forecast(&pace, &tracer, later.times(threads));
+        clock.lap("forecast");
+        let planned = Planned::new(self, first, options, clock, cost);
+        progress.planned(&planned);
+        planned
+    }
+
+    pub fn photon_bytes(&self) -> u64 {
+        self.photon_bytes
+    }
+}
+
+/// The passes before the one whose squared radius is the mean of all, as a share: for r² ∝ n^(−1/3) that is
+/// (2/3)³.
+const TYPICAL: f64 = 8.0 / 27.0;
