@@ -16,6 +16,8 @@ pub mod build;
 
 pub mod scatter;
 
+pub mod survey;
+
 pub mod index;
 
 pub mod trace;

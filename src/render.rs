@@ -11,6 +11,7 @@ use crate::film::Film;
 use crate::math::Rare;
 use crate::output;
 use crate::plan::{Antialiasing, Plan};
+use crate::survey::Survey;
 use crate::trace::{self, Tally, Tracer};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
 use photons::PassStages;
@@ -25,6 +26,8 @@ use std::time::Instant;
 pub struct Rendered {
     pub image: output::Image,
     pub provenance: output::Provenance,
+    /// The plan's decisions, as the built world refines them.
+    pub survey: Survey,
     pub stats: Stats,
     pub warnings: Vec<String>,
     /// Every asset file that was read.
@@ -47,7 +50,7 @@ pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Re
 
 fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     let mut clock = Clock::default();
-    let plan = Plan::new(&loaded.scene, options.passes.clone(), options.seed);
+    let plan = Plan::new(&loaded.scene, &options.request())?;
     options.check(&plan)?;
     clock.lap("plan");
 
@@ -65,6 +68,8 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let stages = PassStages::new(&world, &plan);
     let mut photon_stats = stages.stats(&world);
     clock.lap("pilot");
+    let survey = Survey::new(&world, &plan, stages.emission());
+    clock.lap("survey");
 
     let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(&wants));
     let mut tally = Tally::default();
@@ -106,7 +111,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let image = image::assemble(&film, options);
     let stats = Stats::new(clock.stages, &tally, &plan, &film, &world, photon_stats);
     let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
-    Ok(Rendered { image, provenance, stats, warnings, files })
+    Ok(Rendered { image, provenance, survey, stats, warnings, files })
 }
 
 #[derive(Default)]

@@ -8,20 +8,33 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module with those that it may name, in the order of the pipeline.
-const TABLE: [(&str, &[&str]); 13] = [
+const TABLE: [(&str, &[&str]); 14] = [
     ("math", &[]),
     ("optics", &["math"]),
     ("description", &["math"]),
     ("plan", &["math", "description"]),
     ("build", &["math", "optics", "description", "plan"]),
     ("scatter", &["math", "optics", "plan", "build"]),
+    ("survey", &["math", "optics", "plan", "build", "scatter"]),
     ("index", &["math", "optics", "plan", "scatter"]),
     ("trace", &["math", "optics", "plan", "build", "index"]),
     ("film", &["math", "trace"]),
     ("output", &["math", "plan", "film"]),
     (
         "render",
-        &["math", "optics", "description", "plan", "build", "scatter", "index", "trace", "film", "output"],
+        &[
+            "math",
+            "optics",
+            "description",
+            "plan",
+            "build",
+            "scatter",
+            "survey",
+            "index",
+            "trace",
+            "film",
+            "output",
+        ],
     ),
     ("measure", &["math", "description", "plan", "film", "output", "render"]),
     // part of the program, not of the library: it sees the library from outside

@@ -2,6 +2,7 @@
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use terrarium::plan::{Effect, Overrides};
 use terrarium::render::Aov;
 
 const EXAMPLES: &str = "\
@@ -84,6 +85,8 @@ pub struct RenderArgs {
     /// Seed of every random value; the scene's if not given
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    #[command(flatten)]
+    pub effects: Effects,
     /// Threads; as many as the machine runs at once if not given. The image does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -130,6 +133,39 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)
+}
+
+/// Overrides of the effects that the scene calls for.
+#[derive(Debug, ClapArgs)]
+pub struct Effects {
+    /// Leave out effects: direct, shadows, soft_shadows, reflection, refraction, absorption, dispersion,
+    /// highlights, textures, normal_maps, bump_maps, caustics, indirect, depth_of_field, environment,
+    /// antialiasing
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub without: Vec<Effect>,
+    /// Render the light of these effects alone: direct, reflection, refraction, highlights, caustics,
+    /// indirect, environment
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub only: Vec<Effect>,
+    /// Add effects that the scene turns off: indirect, caustics
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub with: Vec<Effect>,
+}
+
+impl Effects {
+    pub fn overrides(&self) -> Overrides {
+        let once = |list: &[Effect]| {
+            let mut effects = Vec::new();
+            list.iter().for_each(|effect| {
+                if !effects.contains(effect) {
+                    effects.push(*effect)
+                }
+            });
+            effects
+        };
+        let only = (!self.only.is_empty()).then(|| once(&self.only));
+        Overrides { without: once(&self.without), only, with: once(&self.with), ..Overrides::default() }
+    }
 }
 
 /// How a scene is read.

@@ -29,7 +29,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     probe(args, &targets)?;
     let reporter = Reporter::new(args.progress, args.quiet, terminal);
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene));
+        terminal.say(&announcement(args, &loaded.scene)?);
     }
 
     let mut rendered = render::render(&loaded, &options(args), &reporter).map_err(|error| {
@@ -105,6 +105,7 @@ fn options(args: &RenderArgs) -> Options {
         threads: args.threads.map(usize::from),
         passes: args.passes.clone(),
         seed: args.seed,
+        overrides: args.effects.overrides(),
         aovs,
         tile: args.tile,
         strict: args.strict,
@@ -112,17 +113,25 @@ fn options(args: &RenderArgs) -> Options {
 }
 
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene) -> String {
-    let passes = Plan::new(scene, args.passes.clone(), args.seed).passes;
+fn announcement(args: &RenderArgs, scene: &Scene) -> Result<String, Failure> {
+    let plan = Plan::new(scene, &options(args).request()).map_err(RenderError::from)?;
+    let passes = plan.passes;
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
-    format!(
+    let mut line = format!(
         "{}: {} × {} pixels, {passes}, {}",
         args.scene.display(),
         scene.image.width,
         scene.image.height,
         plural(rayon::current_num_threads(), "thread")
-    )
+    );
+    if !plan.overrides.is_empty() {
+        line += &format!(", {}", plan.overrides);
+    }
+    for note in &plan.notes {
+        line += &format!("\n{note}");
+    }
+    Ok(line)
 }
 
 /// Every stage that uses threads uses this many, writing included.

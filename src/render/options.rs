@@ -1,7 +1,7 @@
 //! What a caller asks of a render beyond the scene, and what it may be told.
 
 use crate::build::BuildError;
-use crate::plan::{Antialiasing, Plan};
+use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request};
 use crate::trace::Wants;
 use std::ops::Range;
 use std::str::FromStr;
@@ -15,6 +15,8 @@ pub struct Options {
     /// can be rendered alone.
     pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
+    /// Effects that are left out or added.
+    pub overrides: Overrides,
     /// Further layers of the image.
     pub aovs: Vec<Aov>,
     /// Side of a tile in pixels, 1 or more. Never changes a pixel.
@@ -25,7 +27,15 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { threads: None, passes: None, seed: None, aovs: Vec::new(), tile: 32, strict: false }
+        Options {
+            threads: None,
+            passes: None,
+            seed: None,
+            overrides: Overrides::default(),
+            aovs: Vec::new(),
+            tile: 32,
+            strict: false,
+        }
     }
 }
 
@@ -107,6 +117,11 @@ impl FromStr for Aov {
 }
 
 impl Options {
+    /// What they ask of the plan.
+    pub fn request(&self) -> Request {
+        Request { passes: self.passes.clone(), seed: self.seed, overrides: self.overrides.clone() }
+    }
+
     pub(super) fn wants(&self) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         Wants {
@@ -181,6 +196,12 @@ impl RenderError {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
         }
+    }
+}
+
+impl From<Refused> for RenderError {
+    fn from(refused: Refused) -> Self {
+        RenderError::Invalid(refused.0)
     }
 }
 

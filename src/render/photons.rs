@@ -134,6 +134,11 @@ impl PassStages {
         }
     }
 
+    /// What photons of caustics are sent from where.
+    pub fn emission(&self) -> Option<&Emission> {
+        self.caustic.as_ref().map(|stage| &stage.emission)
+    }
+
     /// Whether one set of maps serves all passes.
     pub fn one_map(&self) -> bool {
         [&self.caustic, &self.indirect].into_iter().flatten().all(PhotonStage::one_map)
