@@ -16,6 +16,8 @@ pub mod build;
 
 pub mod scatter;
 
+pub mod survey;
+
 pub mod index;
 
 pub mod trace;
@@ -27,3 +29,5 @@ pub mod output;
 pub mod forecast;
 
 pub mod render;
+
+pub mod measure;

@@ -14,6 +14,7 @@ use crate::film::Film;
 use crate::math::Rare;
 use crate::output;
 use crate::plan::Plan;
+use crate::survey::Survey;
 use crate::trace::{self, Tally};
 use clock::Clock;
 pub use options::{Aov, Options, Progress, RenderError, Silent};
@@ -31,6 +32,8 @@ use std::path::PathBuf;
 pub struct Rendered {
     pub image: output::Image,
     pub provenance: output::Provenance,
+    /// The plan's decisions, as the built world refines them.
+    pub survey: Survey,
     pub stats: Stats,
     pub warnings: Vec<String>,
     /// Every asset file that was read.
@@ -90,7 +93,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);
     let stats = Stats::new(clock.stages, &tally, &film, &world, photons, prices, &planned);
-    Ok(Rendered { image, provenance, stats, warnings, files })
+    Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files })
 }
 
 /// What tracing leaves.

@@ -8,13 +8,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module with those that it may name, in the order of the pipeline.
-const TABLE: [(&str, &[&str]); 14] = [
+const TABLE: [(&str, &[&str]); 15] = [
     ("math", &[]),
     ("optics", &["math"]),
     ("description", &["math"]),
     ("plan", &["math", "description"]),
     ("build", &["math", "optics", "description", "plan"]),
     ("scatter", &["math", "optics", "plan", "build"]),
+    ("survey", &["math", "optics", "plan", "build", "scatter"]),
     ("index", &["math", "optics", "plan", "scatter"]),
     ("trace", &["math", "optics", "plan", "build", "index"]),
     ("film", &["math", "trace"]),
@@ -29,6 +30,7 @@ const TABLE: [(&str, &[&str]); 14] = [
             "plan",
             "build",
             "scatter",
+            "survey",
             "index",
             "trace",
             "film",

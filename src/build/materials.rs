@@ -26,11 +26,11 @@ pub(super) fn rgb(c: &description::Rgb) -> Vec3 {
 
 impl Surfaces {
     pub fn load(scene: &Scene) -> Result<Surfaces, BuildError> {
-        let used = super::objects::used_materials(scene);
+        let used = crate::plan::used_materials(scene);
         let images = Images::new(Path::new(""), Limits::default());
         let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
         let (mut materials, mut ids) = (Vec::new(), HashMap::new());
-        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(*name)) {
+        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
             let material = textures.material(described)?;
             check_energy(name, &material, &textures.list)?;
             ids.insert(name.to_owned(), MaterialId(materials.len() as u32));
@@ -42,11 +42,11 @@ impl Surfaces {
     /// What is wrong with the images that used materials name, and with what these make of them; gives
     /// back the images.
     pub fn examine(scene: &Scene, findings: &mut Findings) -> Images {
-        let used = super::objects::used_materials(scene);
+        let used = crate::plan::used_materials(scene);
         let images = Images::new(Path::new(""), Limits::default());
         let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
         let mut broken = HashSet::new();
-        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(*name)) {
+        for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
             for (texture, usage) in named_textures(described) {
                 let known = textures.images.warnings().len();
                 let read = textures.id(texture, usage).map(drop);

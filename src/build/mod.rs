@@ -58,8 +58,9 @@ pub struct Built {
     pub files: Vec<PathBuf>,
 }
 
-/// Builds the world of a checked scene. Asset paths in it are relative to the current folder.
+/// Builds the world of a checked scene, as the plan's overrides leave it. Asset paths in it are relative to the current folder.
 pub fn build(scene: &Scene, plan: &Plan) -> Result<Built, BuildError> {
+    let scene = &*plan.edited(scene);
     let description =
         scene.camera.as_ref().ok_or_else(|| BuildError::Invalid("the scene has no camera".to_owned()))?;
     let origin = DVec3::from(description.target);

@@ -9,7 +9,7 @@ use super::{BuildError, scatter};
 use crate::description::{Object, Scale, Scene, Shape as Described, Transform};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::optics::{Cone, Cuboid, Disk, MaterialId, Polyhedron, Quad, Shape, Solid, Sphere};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// All placed objects of a scene.
 pub(super) struct Placed {
@@ -300,24 +300,4 @@ pub(super) fn rotation(axis: DVec3, deg: f64) -> DAffine3 {
     // Rodrigues' formula, column by column.
     let column = |e: DVec3| e * cos + a.cross(e) * sin + a * (a.dot(e) * (1.0 - cos));
     DAffine3::from_mat3(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)))
-}
-
-/// The names of the materials that placed objects use.
-pub(super) fn used_materials(scene: &Scene) -> HashSet<String> {
-    let mut used = HashSet::new();
-    let mut seen = HashSet::new();
-    let mut todo: Vec<&Object> = scene.objects.iter().collect();
-    while let Some(object) = todo.pop() {
-        used.extend(object.material.clone());
-        let mut definition =
-            |name: &String| scene.definitions.get(name).filter(|_| seen.insert(name.clone()));
-        match &object.shape {
-            Described::Group { objects } => todo.extend(objects),
-            Described::Instance { of } => todo.extend(definition(of)),
-            Described::Scatter(s) => todo.extend(s.of.iter().filter_map(definition)),
-            Described::Mesh { parts, .. } => used.extend(parts.iter().map(|(_, material)| material.clone())),
-            _ => {}
-        }
-    }
-    used
 }

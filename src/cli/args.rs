@@ -2,12 +2,14 @@
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use terrarium::render::Aov;
+use terrarium::plan::{Effect, Overrides};
+use terrarium::render::{Aov, Options};
 
 const EXAMPLES: &str = "\
 Examples:
   terrarium render scene.ron -o image.exr -o image.png
   terrarium render scene.toml -o - --set materials.glass.ior=1.33 | viewer -
+  terrarium plan scene.ron
   terrarium check scenes/*.ron
   terrarium convert scene.ron scene.toml
 
@@ -20,6 +22,13 @@ Examples:
   terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
+
+const PLAN_EXAMPLES: &str = "\
+Examples:
+  terrarium plan scene.ron
+  terrarium plan scene.ron --json | jq .seconds
+  terrarium plan scene.ron --without caustics,normal_maps --passes 16
+  terrarium plan scene.ron --measure --passes 4";
 
 /// Renders light that passes through glass and water, from declarative scene files.
 #[derive(Debug, Parser)]
@@ -51,6 +60,9 @@ pub enum Command {
     /// Render a scene to one or several images
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Tell what a render would do, why, and what time and memory it would take
+    #[command(after_help = PLAN_EXAMPLES)]
+    Plan(Box<PlanArgs>),
     /// Report every mistake in scene files, without rendering
     Check(CheckArgs),
     /// Rewrite a scene in the other format, RON or TOML
@@ -77,20 +89,8 @@ pub struct RenderArgs {
     pub format: ImageFormat,
     #[command(flatten)]
     pub reading: Reading,
-    /// Independent passes whose mean is the image, or a range of them such as `8..16` (8 to 15), to be
-    /// averaged with the others later; the scene's if not given
-    #[arg(long, value_name = "N or A..B", value_parser = passes)]
-    pub passes: Option<std::ops::Range<u32>>,
-    /// Seed of every random value; the scene's if not given
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; as many as the machine runs at once if not given. The image does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Further layers of the EXR: albedo, normal, depth, position, object_id, samples, direct,
-    /// reflection, refraction, caustic, indirect, photons, photon_density, variance, edges
-    #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
-    pub aov: Vec<Aov>,
+    #[command(flatten)]
+    pub work: Work,
     /// Edge of a tile in pixels. The image does not depend on it
     #[arg(long, value_name = "PIXELS", default_value_t = 32,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -119,6 +119,71 @@ pub struct RenderArgs {
     pub verbose: bool,
 }
 
+/// What is rendered of a scene: the same for a plan as for the render.
+#[derive(Debug, ClapArgs)]
+pub struct Work {
+    /// Independent passes whose mean is the image, or a range of them such as `8..16` (8 to 15), to be
+    /// averaged with the others later; the scene's if not given
+    #[arg(long, value_name = "N or A..B", value_parser = passes)]
+    pub passes: Option<std::ops::Range<u32>>,
+    /// Seed of every random value; the scene's if not given
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub effects: Effects,
+    /// Threads; as many as the machine runs at once if not given. The image does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Further layers of the EXR: albedo, normal, depth, position, object_id, samples, direct,
+    /// reflection, refraction, caustic, indirect, photons, photon_density, variance, edges
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
+    pub aov: Vec<Aov>,
+}
+
+impl Work {
+    /// As the library takes them; tiles and strictness are the render's own.
+    pub fn options(&self) -> Options {
+        let mut aovs = Vec::new();
+        for aov in &self.aov {
+            if !aovs.contains(aov) {
+                aovs.push(*aov);
+            }
+        }
+        Options {
+            threads: self.threads.map(usize::from),
+            passes: self.passes.clone(),
+            seed: self.seed,
+            overrides: self.effects.overrides(),
+            aovs,
+            ..Options::default()
+        }
+    }
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct PlanArgs {
+    /// Scenes, .ron or .toml; `-` reads one from standard input
+    #[arg(required = true)]
+    pub scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub work: Work,
+    /// Print one JSON document instead of text: an object, or an array of them for several scenes
+    #[arg(long)]
+    pub json: bool,
+    /// Render the scene as it is and with each effect left out in turn: what each costs, and what it
+    /// changes in the image
+    #[arg(long)]
+    pub measure: bool,
+    /// How to show progress; `auto` is a bar on a terminal and plain lines elsewhere
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub progress: ProgressChoice,
+    /// Print only the plan, warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 /// Passes: how many, or from the first to the one after the last.
 fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
     let number = |part: &str| part.trim().parse::<u32>().map_err(|e| format!("`{part}`: {e}"));
@@ -130,6 +195,39 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)
+}
+
+/// Overrides of the effects that the scene calls for.
+#[derive(Debug, ClapArgs)]
+pub struct Effects {
+    /// Leave out effects: direct, shadows, soft_shadows, reflection, refraction, absorption, dispersion,
+    /// highlights, textures, normal_maps, bump_maps, caustics, indirect, depth_of_field, environment,
+    /// antialiasing
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub without: Vec<Effect>,
+    /// Render the light of these effects alone: direct, reflection, refraction, highlights, caustics,
+    /// indirect, environment
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub only: Vec<Effect>,
+    /// Add effects that the scene turns off: indirect, caustics
+    #[arg(long, value_name = "EFFECT,…", value_delimiter = ',')]
+    pub with: Vec<Effect>,
+}
+
+impl Effects {
+    pub fn overrides(&self) -> Overrides {
+        let once = |list: &[Effect]| {
+            let mut effects = Vec::new();
+            list.iter().for_each(|effect| {
+                if !effects.contains(effect) {
+                    effects.push(*effect)
+                }
+            });
+            effects
+        };
+        let only = (!self.only.is_empty()).then(|| once(&self.only));
+        Overrides { without: once(&self.without), only, with: once(&self.with), ..Overrides::default() }
+    }
 }
 
 /// How a scene is read.

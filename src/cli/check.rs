@@ -1,7 +1,7 @@
 //! `check`, and reading a scene for every command.
 
 use super::args::{CheckArgs, CheckFormat, Reading};
-use super::exit::{Failure, UNREADABLE, USAGE};
+use super::exit::{FAILED, Failure, UNREADABLE, USAGE};
 use super::report::{self, Terminal};
 use std::io::Read;
 use std::path::Path;
@@ -98,4 +98,13 @@ pub fn load_and_report(scene: &Path, reading: &Reading, terminal: &Terminal) -> 
 pub fn refused(report: &Report, terminal: &Terminal) -> Failure {
     report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
     Failure::new(report.exit_code(), "")
+}
+
+/// Every stage that uses threads uses this many, writing included.
+pub fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|error| Failure::new(FAILED, format!("can't start {threads} threads: {error}")))
 }

@@ -18,27 +18,23 @@ pub fn table(
     planned: &Planned,
     progress: &dyn Progress,
 ) -> Result<Table, Failure> {
-    Ok(Table(measure::prices(loaded, options, &planned.effects, progress)?))
+    Ok(Table(measure::prices(loaded, options, &planned.survey.decisions, progress)?))
 }
 
 impl Table {
     /// A row an effect.
     pub fn text(&self) -> String {
         let mut text = format!("measured: {} with all of it; left out,\n", duration(self.0.seconds));
-        for LeftOut { effect, seconds, relative_rms, mean_change } in &self.0.left_out {
+        for LeftOut { effect, seconds, relative_rms, mean_change, same } in &self.0.left_out {
             text += &format!(
                 "  {:15} {} ({:+.1} %) and the image changes by {} (mean {:+.2} %)\n",
                 effect.name(),
                 duration(*seconds),
                 100.0 * (seconds / self.0.seconds - 1.0),
-                percent(*relative_rms),
+                if *same { "nothing".to_owned() } else { format!("{:.2} %", 100.0 * relative_rms) },
                 100.0 * mean_change,
             );
         }
         text
     }
-}
-
-fn percent(share: f64) -> String {
-    if share == 0.0 { "nothing".to_owned() } else { format!("{:.2} %", 100.0 * share) }
 }

@@ -7,6 +7,8 @@ mod args;
 mod check;
 mod convert;
 mod exit;
+mod measure;
+mod plan;
 mod progress;
 mod render;
 mod report;
@@ -50,6 +52,7 @@ pub fn run() -> ExitCode {
 fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     match &args.command {
         Command::Render(args) => render::run(args, terminal),
+        Command::Plan(args) => plan::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),
         Command::Convert(args) => convert::run(args, terminal),
         Command::Schema => {

@@ -6,10 +6,13 @@ use super::exit::Failure;
 use super::measure;
 use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
+use super::summary::{mebibytes, rays};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;
 use terrarium::description::Loaded;
+use terrarium::output::hex;
+use terrarium::plan::Effect;
 use terrarium::render::{self, Planned};
 
 /// Everything that `--json` prints of one scene.
@@ -17,7 +20,7 @@ use terrarium::render::{self, Planned};
 struct Document<'a> {
     version: &'static str,
     scene: String,
-    scene_hash: &'a str,
+    scene_hash: String,
     width: u32,
     height: u32,
     threads: usize,
@@ -40,17 +43,14 @@ pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
         let reporter = Reporter::new(args.progress, args.quiet, terminal);
         let planned = render::plan(&loaded, &options, &reporter);
         let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
-        let measured = if args.measure {
-            Some(measure::table(&loaded, &options, &planned, &reporter)?)
-        } else {
-            None
-        };
+        let measured =
+            if args.measure { Some(measure::table(&loaded, &options, &planned, &reporter)?) } else { None };
         if args.json {
             let image = &loaded.scene.image;
             let document = Document {
                 version: env!("CARGO_PKG_VERSION"),
                 scene: scene.display().to_string(),
-                scene_hash: &loaded.hash,
+                scene_hash: hex(&loaded.hash),
                 width: image.width,
                 height: image.height,
                 threads: rayon::current_num_threads(),
@@ -85,16 +85,19 @@ fn heading(scene: &PathBuf, loaded: &Loaded, planned: &Planned) -> String {
 /// One line an effect, then what all of it takes.
 fn lines(planned: &Planned) -> String {
     let mut text = String::new();
-    for decision in &planned.effects {
+    for decision in &planned.survey.decisions {
         let seconds = planned.prices.of(decision.effect.key());
         let price = if seconds > 0.0 { format!("; {}", duration(seconds)) } else { String::new() };
         text += &format!("  {decision}{price}\n");
+        if decision.effect == Effect::Caustics {
+            let dark = planned.survey.lights.iter().filter(|light| decision.on && !light.on);
+            text.extend(dark.map(|light| format!("  {light}\n")));
+        }
     }
-    text += &format!("rays: {}\n", rays(planned));
-    for (what, photons) in [
-        ("photons", &planned.photons.photons),
-        ("indirect photons", &planned.photons.indirect_photons),
-    ] {
+    text += &format!("rays: {}\n", rays(&planned.rays));
+    for (what, photons) in
+        [("photons", &planned.photons.photons), ("indirect photons", &planned.photons.indirect_photons)]
+    {
         if let Some(photons) = photons {
             text += &format!(
                 "{what}: {} sent out a map, {} stored\n",
@@ -110,16 +113,6 @@ fn lines(planned: &Planned) -> String {
     text
 }
 
-fn rays(planned: &Planned) -> String {
-    let rays = serde_json::to_value(planned.rays).unwrap_or_default();
-    let rays = rays.as_object().into_iter().flatten();
-    let kinds: Vec<String> = rays
-        .filter_map(|(kind, count)| Some((kind, count.as_f64().filter(|count| *count > 0.0)?)))
-        .map(|(kind, count)| format!("{kind} {}", short(count)))
-        .collect();
-    kinds.join(", ")
-}
-
 /// The whole, by stage.
 fn time(planned: &Planned) -> String {
     let stages: Vec<String> = planned
@@ -132,13 +125,14 @@ fn time(planned: &Planned) -> String {
 }
 
 fn memory(planned: &Planned) -> Option<String> {
-    Some(format!("about {:.0} MiB at most", planned.peak_bytes? as f64 / f64::from(1 << 20)))
+    Some(format!("about {} at most", mebibytes(planned.peak_bytes?)))
 }
 
 /// The paragraph that a render begins with: which effects, and what they will take.
 pub fn summary(planned: &Planned) -> String {
     let on: Vec<String> = planned
-        .effects
+        .survey
+        .decisions
         .iter()
         .filter(|decision| decision.on)
         .map(|decision| {

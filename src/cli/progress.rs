@@ -4,11 +4,12 @@
 //! names. Off a terminal nothing is drawn over.
 
 use super::args::ProgressChoice;
+use super::plan;
 use super::report::Terminal;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use terrarium::render::Progress;
+use terrarium::render::{Planned, Progress};
 
 /// Plain lines come after this time at the latest.
 const LONGEST_SILENCE: Duration = Duration::from_secs(30);
@@ -19,6 +20,8 @@ const SHORTEST_SILENCE: Duration = Duration::from_millis(100);
 pub struct Reporter {
     form: Form,
     terminal: Terminal,
+    /// Whether the plan is told once it is known.
+    tells_plan: bool,
     stage: Mutex<Option<Stage>>,
 }
 
@@ -51,7 +54,12 @@ impl Reporter {
             ProgressChoice::Auto if terminal.redraws => Form::Bar,
             ProgressChoice::Auto | ProgressChoice::Plain => Form::Plain,
         };
-        Reporter { form, terminal: terminal.clone(), stage: Mutex::new(None) }
+        Reporter { form, terminal: terminal.clone(), tells_plan: false, stage: Mutex::new(None) }
+    }
+
+    /// The same, telling the plan once it is known unless that is not wanted.
+    pub fn telling_plan(self, wanted: bool) -> Self {
+        Reporter { tells_plan: wanted, ..self }
     }
 
     /// The images have their names: the whole is done.
@@ -151,6 +159,16 @@ impl Progress for Reporter {
             if self.form == Form::Json {
                 self.tell(&stage);
             }
+        }
+    }
+
+    fn planned(&self, planned: &Planned) {
+        if self.form == Form::Json {
+            let (seconds, bytes) = (planned.seconds, planned.peak_bytes);
+            let line = serde_json::json!({ "v": 1, "predicted_s": seconds, "predicted_bytes": bytes });
+            self.terminal.say(&line.to_string());
+        } else if self.tells_plan {
+            self.terminal.say(&plan::summary(planned));
         }
     }
 

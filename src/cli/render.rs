@@ -5,15 +5,16 @@
 //! was there before stays as it was.
 
 use super::args::RenderArgs;
-use super::check::{files, load_and_report, refused};
-use super::exit::{FAILED, Failure, USAGE};
+use super::check::{files, load_and_report, refused, set_threads};
+use super::exit::{Failure, USAGE};
 use super::progress::Reporter;
 use super::report::{self, Terminal};
-use super::summary::{Summary, peak_bytes, worst};
+use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
+use terrarium::forecast::memory;
 use terrarium::output::{Stamp, atomic, depfile};
 use terrarium::plan::Plan;
 use terrarium::render::{self, Options, Progress, RenderError, Rendered};
@@ -23,13 +24,13 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     let targets = targets(args)?;
     refuse_mixed_up_files(args, &targets)?;
     let stamp = args.stamp.then(stamp).transpose()?;
-    set_threads(args)?;
+    set_threads(args.work.threads)?;
     let loaded = load_and_report(&args.scene, &args.reading, terminal)?;
     refuse_overwriting(&targets, &loaded.files)?;
     probe(args, &targets)?;
-    let reporter = Reporter::new(args.progress, args.quiet, terminal);
+    let reporter = Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet);
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene));
+        terminal.say(&announcement(args, &loaded.scene)?);
     }
 
     let mut rendered = render::render(&loaded, &options(args), &reporter).map_err(|error| {
@@ -65,7 +66,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
         outputs: args.output.iter().map(|path| path.display().to_string()).collect(),
         threads: rayon::current_num_threads(),
         seconds: began.elapsed().as_secs_f64(),
-        peak_bytes: peak_bytes(),
+        peak_bytes: memory::held().map(|held| held.most),
         non_finite_values: written.non_finite,
         clamped_pixels: written.clamped_pixels,
         warnings: &rendered.warnings,
@@ -86,7 +87,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
 }
 
 /// Building stops at the first file that it cannot use: all that is wrong with them is told instead.
-fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Failure {
+pub fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Failure {
     if matches!(error, RenderError::Failed(_)) {
         return Failure::from(error);
     }
@@ -95,43 +96,29 @@ fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Fail
 }
 
 fn options(args: &RenderArgs) -> Options {
-    let mut aovs = Vec::new();
-    for aov in &args.aov {
-        if !aovs.contains(aov) {
-            aovs.push(*aov);
-        }
-    }
-    Options {
-        threads: args.threads.map(usize::from),
-        passes: args.passes.clone(),
-        seed: args.seed,
-        aovs,
-        tile: args.tile,
-        strict: args.strict,
-    }
+    Options { tile: args.tile, strict: args.strict, ..args.work.options() }
 }
 
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene) -> String {
-    let passes = Plan::new(scene, args.passes.clone(), args.seed).passes;
+fn announcement(args: &RenderArgs, scene: &Scene) -> Result<String, Failure> {
+    let plan = Plan::new(scene, &options(args).request()).map_err(RenderError::from)?;
+    let passes = plan.passes;
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
-    format!(
+    let mut line = format!(
         "{}: {} × {} pixels, {passes}, {}",
         args.scene.display(),
         scene.image.width,
         scene.image.height,
         plural(rayon::current_num_threads(), "thread")
-    )
-}
-
-/// Every stage that uses threads uses this many, writing included.
-fn set_threads(args: &RenderArgs) -> Result<(), Failure> {
-    let Some(threads) = args.threads else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(threads))
-        .build_global()
-        .map_err(|error| Failure::new(FAILED, format!("can't start {threads} threads: {error}")))
+    );
+    if !plan.overrides.is_empty() {
+        line += &format!(", {}", plan.overrides);
+    }
+    for note in &plan.notes {
+        line += &format!("\n{note}");
+    }
+    Ok(line)
 }
 
 /// Images, statistics and dependency file must be different files.
@@ -204,9 +191,7 @@ fn stamp() -> Result<Stamp, Failure> {
 }
 
 fn verbose(loaded: &Loaded, rendered: &Rendered, terminal: &Terminal) {
-    if !rendered.provenance.plan.is_empty() {
-        terminal.say(&format!("plan:\n{}", rendered.provenance.plan.trim_end()));
-    }
+    terminal.say(rendered.survey.text().trim_end());
     for file in loaded.files.iter().chain(&rendered.files) {
         terminal.say(&format!("read {}", file.display()));
     }

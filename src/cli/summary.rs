@@ -4,7 +4,8 @@ use super::progress::{duration, short};
 use super::report::Terminal;
 use serde::Serialize;
 use terrarium::output::Written;
-use terrarium::render::{PhotonStats, Stats};
+use terrarium::render::{PhotonStats, Priced, Stats};
+use terrarium::trace::Rays;
 
 /// Everything that `--stats` writes.
 #[derive(Debug, Serialize)]
@@ -40,16 +41,14 @@ impl Summary<'_> {
             self.stats.stages.iter().map(|stage| format!("{} {:.2}", stage.name, stage.seconds)).collect();
         terminal.say(&format!("wrote {}", self.outputs.join(", ")));
         terminal.say(&format!("time: {} ({} s)", duration(self.seconds), stages.join(", ")));
-        let rays = serde_json::to_value(self.stats.rays).unwrap_or_default();
-        let rays: Vec<String> = rays
-            .as_object()
-            .into_iter()
-            .flatten()
-            .filter_map(|(kind, count)| Some((kind, count.as_f64().filter(|count| *count > 0.0)?)))
-            .map(|(kind, count)| format!("{kind} {}", short(count)))
-            .collect();
+        let prices: Vec<String> = self.stats.prices.iter().map(price).collect();
+        if !prices.is_empty() {
+            let predicted = duration(self.stats.predicted_seconds);
+            terminal.say(&format!("of which: {} (predicted: {predicted} in all)", prices.join(", ")));
+        }
+        let rays = rays(&self.stats.rays);
         if !rays.is_empty() {
-            terminal.say(&format!("rays: {}", rays.join(", ")));
+            terminal.say(&format!("rays: {rays}"));
         }
         let photons = &self.stats.photons;
         for (what, photons) in
@@ -60,7 +59,11 @@ impl Summary<'_> {
             }
         }
         if let Some(bytes) = self.peak_bytes {
-            terminal.say(&format!("memory: {:.0} MiB at most", bytes as f64 / f64::from(1 << 20)));
+            let predicted = self
+                .stats
+                .predicted_peak_bytes
+                .map_or(String::new(), |bytes| format!(" ({} predicted)", mebibytes(bytes)));
+            terminal.say(&format!("memory: {} at most{predicted}", mebibytes(bytes)));
         }
         for event in self.stats.rare_events.iter().filter(|event| event.count > 0) {
             terminal.say(&format!(
@@ -79,6 +82,25 @@ impl Summary<'_> {
             terminal.say(&format!("PNG: {} pixels ({share:.1} %) are out of range", self.clamped_pixels));
         }
     }
+}
+
+/// What an effect took, and should have.
+fn price(price: &Priced) -> String {
+    let Priced { effect, seconds, predicted_seconds } = price;
+    format!("{effect} {seconds:.2} s ({predicted_seconds:.2} predicted)")
+}
+
+/// Rays by kind; empty where there are none.
+pub fn rays(rays: &Rays) -> String {
+    let rays = serde_json::to_value(rays).unwrap_or_default();
+    let kinds: Vec<String> = rays
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter_map(|(kind, count)| Some((kind, count.as_f64().filter(|count| *count > 0.0)?)))
+        .map(|(kind, count)| format!("{kind} {}", short(count)))
+        .collect();
+    kinds.join(", ")
 }
 
 /// Emitted, stored, by which lights, and how far around each point they were gathered.
@@ -126,10 +148,7 @@ pub fn worst(written: &[Written]) -> Written {
     }
 }
 
-/// The highest resident memory of this process so far, from Linux's `/proc`.
-pub fn peak_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kib * 1024)
+/// `123 MiB`.
+pub fn mebibytes(bytes: u64) -> String {
+    format!("{:.0} MiB", bytes as f64 / f64::from(1 << 20))
 }

@@ -54,6 +54,12 @@ impl<T> NameMap<T> {
         self.entries.is_empty()
     }
 
+    /// Keeps the entries for which `keep` holds.
+    pub fn retain(&mut self, keep: impl Fn(&T) -> bool) {
+        self.entries.retain(|(_, entry)| keep(entry));
+        self.index = self.entries.iter().enumerate().map(|(i, (name, _))| (name.clone(), i)).collect();
+    }
+
     /// Adds an entry; gives it back if the name is taken.
     pub fn insert(&mut self, name: String, entry: T) -> Result<(), T> {
         if self.index.contains_key(&name) {

@@ -32,7 +32,8 @@ pub fn compare(image: &Image, reference: &Image) -> Option<Difference> {
     if pairs.len() != a.channels.len() || pairs.len() != r.channels.len() {
         return None;
     }
-    let mean = |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;
+    let mean =
+        |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;
     let luminance = |side: &dyn Fn(&(&[f32], &[f32])) -> f64| -> f64 {
         pairs.iter().zip(LUMINANCE).map(|(pair, weight)| weight * side(pair)).sum()
     };

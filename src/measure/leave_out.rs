@@ -36,7 +36,7 @@ pub fn prices(
 ) -> Result<Prices, RenderError> {
     let whole = render::render(loaded, options, progress)?;
     let mut left_out = Vec::new();
-    for effect in decisions.iter().filter(|d| d.on && d.effect.can_be_left_out()).map(|d| d.effect) {
+    for effect in decisions.iter().filter(|d| d.on && d.effect != Effect::NestedMedia).map(|d| d.effect) {
         let mut without = options.clone();
         without.overrides.without.push(effect);
         let part = render::render(loaded, &without, progress)?;

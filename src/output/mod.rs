@@ -15,7 +15,7 @@ pub mod srgb;
 pub use self::image::{Image, Layer};
 pub use camera_view::CameraView;
 pub use png::{Bits, PngSettings};
-pub use provenance::{COLOR_SPACE, Provenance, Stamp};
+pub use provenance::{COLOR_SPACE, Provenance, Stamp, hex};
 
 use std::io::{self, Seek, Write};
 use std::path::Path;

@@ -61,7 +61,7 @@ impl Provenance {
     pub fn new(scene_hash: &[u8; 32], seed: u64, passes: u32) -> Self {
         Provenance {
             software: concat!("terrarium ", env!("CARGO_PKG_VERSION")).to_string(),
-            scene_hash: scene_hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+            scene_hash: hex(scene_hash),
             seed,
             passes,
             plan: String::new(),
@@ -125,6 +125,11 @@ fn civil_date(days: u64) -> (u64, u64, u64) {
     let day = of_year - (153 * month_from_march + 2) / 5 + 1;
     let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
     (era * 400 + year_of_era + u64::from(month <= 2), month, day)
+}
+
+/// A hash as text.
+pub fn hex(hash: &[u8; 32]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -3,15 +3,35 @@
 //! Decided from the description alone, before any file is read. An effect that is off does not run,
 //! allocate or load.
 
-mod effects;
+mod carried;
+mod decide;
+mod decision;
+mod effect;
+mod lighting;
+mod overrides;
 mod photons;
+mod placed;
 
 pub use crate::description::Antialiasing;
 pub use crate::description::IndirectBy;
 use crate::description::{Indirect, Light, Scene};
-pub use effects::{Decision, Effect};
+pub use carried::{Carried, Carriers};
+pub use decision::{Cause, Decision, few};
+pub use effect::Effect;
+pub use overrides::{Overrides, Refused};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
+pub use placed::used_materials;
+use std::borrow::Cow;
 use std::ops::Range;
+
+/// What a caller asks for beyond the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// The numbers of the passes, from the first to the one after the last.
+    pub passes: Option<Range<u32>>,
+    pub seed: Option<u64>,
+    pub overrides: Overrides,
+}
 
 /// What a render will do.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +54,13 @@ pub struct Plan {
     pub indirect_by: IndirectBy,
     /// Photons of indirect light, should it be found by them.
     pub indirect_photons: PhotonBudget,
+    /// Which light the eye's paths carry.
+    pub carried: Carried,
+    /// One an effect, in the order of [`Effect::ALL`].
     pub decisions: Vec<Decision>,
+    pub overrides: Overrides,
+    /// What of the overrides has no effect, and why.
+    pub notes: Vec<String>,
 }
 
 /// Passes of progressive antialiasing where the scene does not say.
@@ -44,12 +70,22 @@ const DEFAULT_PASSES: u32 = 64;
 const SINGLE_PASS_LIGHT_SAMPLES: u32 = 16;
 
 impl Plan {
-    /// `passes` (the numbers from the first to the one after the last) and `seed` override the scene's.
-    pub fn new(scene: &Scene, passes: Option<Range<u32>>, seed: Option<u64>) -> Plan {
+    /// The plan of a checked scene; what is asked for overrides what the scene says.
+    ///
+    /// # Errors
+    /// Overrides that contradict each other, or ask for what the scene cannot have.
+    pub fn new(scene: &Scene, request: &Request) -> Result<Plan, Refused> {
+        let overrides = request.overrides.clone();
+        let own = decide::decide(scene);
+        let notes = overrides.check(&own)?;
+        let carried = overrides.carried(scene);
+        let scene = &*overrides::edited(scene, &overrides, &carried);
+        let decisions =
+            if overrides.is_empty() { own } else { overrides.decide(&own, &decide::decide(scene), &carried) };
         let progressive = scene.antialiasing == Antialiasing::Progressive;
-        let decisions = effects::decide(scene);
-        let caustics = decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
-        Plan {
+        let caustics = overrides.forced || decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
+        let passes = request.passes.clone();
+        Ok(Plan {
             antialiasing: scene.antialiasing,
             passes: passes
                 .as_ref()
@@ -58,7 +94,7 @@ impl Plan {
                 .unwrap_or(if progressive { DEFAULT_PASSES } else { 1 })
                 .max(1),
             first_pass: passes.map_or(0, |range| range.start),
-            seed: seed.unwrap_or(scene.render.seed),
+            seed: request.seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.
             split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
@@ -70,12 +106,31 @@ impl Plan {
                 Indirect::On => u32::MAX,
                 Indirect::Bounces(n) => n,
             },
+            carried,
             decisions,
-        }
+            overrides,
+            notes,
+        })
+    }
+
+    /// The scene that is rendered: the plan's own with the overrides that can be said in a scene.
+    pub fn edited<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
+        overrides::edited(scene, &self.overrides, &self.carried)
     }
 
     pub fn is_on(&self, effect: Effect) -> bool {
         self.decisions.iter().any(|d| d.effect == effect && d.on)
+    }
+
+    /// Whether an override leaves out an effect that shapes light.
+    pub fn leaves_out(&self, effect: Effect) -> bool {
+        self.overrides.leaves_out(effect)
+    }
+
+    /// Whether stages run that nothing calls for: for tests.
+    #[doc(hidden)]
+    pub fn forced(&self) -> bool {
+        self.overrides.forced
     }
 
     /// Shadow rays a shading point on this light.
@@ -87,16 +142,21 @@ impl Plan {
         else {
             return 1;
         };
-        samples.unwrap_or(self.area_samples()).max(1)
+        if self.leaves_out(Effect::SoftShadows) { 1 } else { samples.unwrap_or(self.area_samples()).max(1) }
     }
 
     /// Shadow rays a shading point on an emitting object.
     pub fn area_samples(&self) -> u32 {
-        if self.antialiasing == Antialiasing::Progressive { 1 } else { SINGLE_PASS_LIGHT_SAMPLES }
+        let one = self.antialiasing == Antialiasing::Progressive || self.leaves_out(Effect::SoftShadows);
+        if one { 1 } else { SINGLE_PASS_LIGHT_SAMPLES }
     }
 
-    /// One line an effect, for the image's provenance.
+    /// One line an effect, and the overrides, for the image's provenance.
     pub fn text(&self) -> String {
-        self.decisions.iter().map(|d| d.to_string() + "\n").collect()
+        let mut text: String = self.decisions.iter().map(|d| d.to_string() + "\n").collect();
+        if !self.overrides.is_empty() {
+            text += &format!("overrides: {}\n", self.overrides);
+        }
+        text
     }
 }

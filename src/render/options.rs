@@ -2,7 +2,7 @@
 
 use super::Planned;
 use crate::build::BuildError;
-use crate::plan::{Antialiasing, Plan};
+use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request};
 use crate::trace::Wants;
 use std::ops::Range;
 use std::str::FromStr;
@@ -16,6 +16,8 @@ pub struct Options {
     /// can be rendered alone.
     pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
+    /// Effects that are left out or added.
+    pub overrides: Overrides,
     /// Further layers of the image.
     pub aovs: Vec<Aov>,
     /// Side of a tile in pixels, 1 or more. Never changes a pixel.
@@ -26,7 +28,15 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { threads: None, passes: None, seed: None, aovs: Vec::new(), tile: 32, strict: false }
+        Options {
+            threads: None,
+            passes: None,
+            seed: None,
+            overrides: Overrides::default(),
+            aovs: Vec::new(),
+            tile: 32,
+            strict: false,
+        }
     }
 }
 
@@ -108,6 +118,11 @@ impl FromStr for Aov {
 }
 
 impl Options {
+    /// What they ask of the plan.
+    pub fn request(&self) -> Request {
+        Request { passes: self.passes.clone(), seed: self.seed, overrides: self.overrides.clone() }
+    }
+
     pub(super) fn wants(&self) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         Wants {
@@ -184,6 +199,12 @@ impl RenderError {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
         }
+    }
+}
+
+impl From<Refused> for RenderError {
+    fn from(refused: Refused) -> Self {
+        RenderError::Invalid(refused.0)
     }
 }
 

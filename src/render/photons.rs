@@ -1,8 +1,8 @@
 //! The photon stages of every pass: scatter, then index, ready to be gathered.
 
 use crate::build::World;
-use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
 use crate::forecast::PhotonSeconds;
+use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
 use crate::math::Health;
 use crate::plan::{self, IndirectBy, PhotonBudget, PhotonEngine, Plan};
 use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
@@ -163,6 +163,11 @@ impl PassStages {
             caustic: PhotonStage::caustic(world, plan),
             indirect: PhotonStage::indirect(world, plan),
         }
+    }
+
+    /// What photons of caustics are sent from where.
+    pub fn emission(&self) -> Option<&Emission> {
+        self.caustic.as_ref().map(|stage| &stage.emission)
     }
 
     /// Whether one set of maps serves all passes.

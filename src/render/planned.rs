@@ -6,14 +6,15 @@ use super::prepare::Prepared;
 use super::prices::first_photons;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
-use crate::plan::Decision;
+use crate::survey::Survey;
 use crate::trace::{self, Rays};
 use serde::Serialize;
 
 /// A plan with its prices, on this machine. Serialised as it stands by `terrarium plan --json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Planned {
-    pub effects: Vec<Decision>,
+    #[serde(flatten)]
+    pub survey: Survey,
     pub passes: u32,
     /// Wall seconds from reading the plan to the finished image in memory.
     pub seconds: f64,
@@ -58,7 +59,7 @@ impl Planned {
         let mut done = clock.stages.clone();
         done.push(StageTime { name: "trace".to_owned(), seconds: cost.seconds });
         Planned {
-            effects: plan.decisions.clone(),
+            survey: ready.survey.clone(),
             passes: plan.passes,
             seconds: clock.sum() + cost.seconds,
             stages: done,

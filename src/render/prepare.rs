@@ -7,6 +7,7 @@ use crate::build::{self, Built, World};
 use crate::description::Loaded;
 use crate::forecast::{Cost, Pace, PhotonSeconds, memory};
 use crate::plan::{Antialiasing, Plan};
+use crate::survey::Survey;
 use crate::trace::{self, Tracer, Wants};
 use std::path::PathBuf;
 
@@ -18,6 +19,7 @@ pub(super) struct Prepared {
     pub warnings: Vec<String>,
     pub files: Vec<PathBuf>,
     pub stages: PassStages,
+    pub survey: Survey,
     reference_level: f32,
     /// Bytes that making a pass's photons takes beyond what was held before.
     photon_bytes: u64,
@@ -31,7 +33,7 @@ impl Prepared {
         progress: &dyn Progress,
         clock: &mut Clock,
     ) -> Result<(Prepared, PassMaps), RenderError> {
-        let plan = Plan::new(&loaded.scene, options.passes.clone(), options.seed);
+        let plan = Plan::new(&loaded.scene, &options.request())?;
         options.check(&plan)?;
         clock.lap("plan");
 
@@ -43,20 +45,16 @@ impl Prepared {
         let wants = options.wants();
         let mut reference_level = 1.0;
         if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
-            let tracer = Tracer {
-                world: &world,
-                plan: &plan,
-                wants,
-                reference_level,
-                caustics: None,
-                indirect: None,
-            };
+            let tracer =
+                Tracer { world: &world, plan: &plan, wants, reference_level, caustics: None, indirect: None };
             reference_level = trace::reference_level(&tracer);
         }
         let stages = PassStages::new(&world, &plan);
         if stages.any() {
             clock.lap("pilot");
         }
+        let survey = Survey::new(&world, &plan, stages.emission());
+        clock.lap("survey");
         let before = memory::held();
         let first = stages.pass(&world, plan.first_pass);
         let after = memory::held();
@@ -68,7 +66,8 @@ impl Prepared {
             _ => first.memory_bytes() as u64,
         };
         let photon_bytes = if stages.any() { photon_bytes } else { 0 };
-        let ready = Prepared { plan, world, wants, warnings, files, stages, reference_level, photon_bytes };
+        let ready =
+            Prepared { plan, world, wants, warnings, files, stages, survey, reference_level, photon_bytes };
         Ok((ready, first))
     }
 

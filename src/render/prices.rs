@@ -48,10 +48,6 @@ pub(super) fn beside(taken: &Bill, predicted: &Bill) -> Vec<Priced> {
             effects.push(price.effect);
         }
     }
-    let row = |effect| Priced {
-        effect,
-        seconds: taken.of(effect),
-        predicted_seconds: predicted.of(effect),
-    };
+    let row = |effect| Priced { effect, seconds: taken.of(effect), predicted_seconds: predicted.of(effect) };
     effects.into_iter().map(row).collect()
 }

@@ -9,23 +9,26 @@ use crate::optics::Shape;
 const MOST: usize = 32;
 
 /// Bounds of all mirrors and interfaces, merged to a few.
+pub(super) fn casters(world: &World) -> Vec<Bound> {
+    merged(specular(world).into_iter().map(|(_, bound)| bound).collect())
+}
+
+/// All mirrors and interfaces.
 ///
 /// What transmits counts where it has been given a rank as a medium: an object of the same index of
 /// refraction as all around it, which light does not notice, has none.
-pub(super) fn casters(world: &World) -> Vec<Bound> {
+pub(super) fn specular(world: &World) -> Vec<(u32, Bound)> {
     let specular = |instance: &Instance| {
         instance.rank != 0
             || world.bindings[instance.binding as usize]
                 .iter()
                 .any(|id| world.materials[id.0 as usize].reflection.bound(&world.textures) != Vec3::ZERO)
     };
-    let bounds = world
-        .instances
-        .iter()
-        .filter(|instance| instance.visible && specular(instance))
-        .filter_map(|instance| of_instance(world, instance))
-        .collect();
-    merged(bounds)
+    (0u32..)
+        .zip(&world.instances)
+        .filter(|(_, instance)| instance.visible && specular(instance))
+        .filter_map(|(i, instance)| Some((i, of_instance(world, instance)?)))
+        .collect()
 }
 
 /// Bounds of all that rays can meet; `None` for an empty scene.

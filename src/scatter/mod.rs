@@ -16,6 +16,7 @@ mod path;
 mod photon;
 mod pilot;
 mod projection;
+mod reach;
 mod source;
 mod surfaces;
 mod window;
@@ -29,6 +30,7 @@ pub use ledger::Ledger;
 use path::{Sink, Walk};
 pub use photon::Photon;
 use rayon::prelude::*;
+pub use reach::{Aimed, reached};
 use source::{Domain, Source, Start};
 use std::ops::Range;
 
@@ -113,15 +115,18 @@ impl Emission {
 
     pub fn of(world: &World, plan: &Plan, store: Store, aim: Aim) -> Option<Emission> {
         let scene = casters::scene(world)?;
+        let specular = casters::specular(world);
         let targets = match aim {
             Aim::Casters => casters::casters(world),
             Aim::Scene => vec![scene],
         };
         let sources = Source::all(world, &scene);
+        let sends = |source: &Source| aim == Aim::Scene || reach::reaches_any(world, source, &specular);
         let [least, most] = CELLS_OF_A_LIGHT;
         let most = (CELLS / sources.len().max(1)).clamp(least, most);
         let cells: Vec<Cell> = (0u32..)
             .zip(&sources)
+            .filter(|(_, source)| sends(source))
             .flat_map(|(i, source)| {
                 let domains = projection::domains(world, source, &targets, most);
                 domains.into_iter().map(move |domain| Cell { source: i, domain, share: 0.0 })

@@ -111,7 +111,7 @@ fn lit(world: &World, source: &Source, beam: &Beam) -> Reach {
 }
 
 /// The normal of a placed quad or disk, and whether only its front emits.
-fn flat(world: &World, instance: u32) -> Option<(DVec3, bool)> {
+pub(super) fn flat(world: &World, instance: u32) -> Option<(DVec3, bool)> {
     use crate::{build::Geometry, optics::Shape};
     let Geometry::Shape(Shape::Quad(_) | Shape::Disk(_)) = world.geometry(instance) else { return None };
     let placed = &world.instances[instance as usize];

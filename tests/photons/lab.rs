@@ -4,7 +4,7 @@ use std::path::Path;
 use terrarium::build::{World, build};
 use terrarium::description::{Format, load_str};
 use terrarium::math::{DVec3, Vec3};
-use terrarium::plan::Plan;
+use terrarium::plan::{Plan, Request};
 use terrarium::scatter::{Aim, Emission, Photon, Scattered, Store};
 
 pub struct Lab {
@@ -31,7 +31,8 @@ pub fn lab_in(folder: &Path, more: &str, materials: &str, lights: &str, objects:
     );
     let loaded =
         load_str(&text, Format::Ron, folder, &[]).unwrap_or_else(|report| panic!("{report:?}\n{text}"));
-    let plan = Plan::new(&loaded.scene, None, Some(7));
+    let plan =
+        Plan::new(&loaded.scene, &Request { seed: Some(7), ..Request::default() }).expect("no overrides");
     let world = build(&loaded.scene, &plan).unwrap_or_else(|error| panic!("{error}\n{text}")).world;
     Lab { world, plan }
 }

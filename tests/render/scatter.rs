@@ -5,11 +5,11 @@ use super::shot::{Shot, shot};
 use std::path::Path;
 use terrarium::build::{World, build};
 use terrarium::math::DVec3;
-use terrarium::plan::Plan;
+use terrarium::plan::{Plan, Request};
 
 fn world(shot: &Shot) -> World {
     let scene = shot.load().scene;
-    let plan = Plan::new(&scene, None, None);
+    let plan = Plan::new(&scene, &Request::default()).expect("nothing is overridden");
     build(&scene, &plan).unwrap_or_else(|e| panic!("{e}")).world
 }
 

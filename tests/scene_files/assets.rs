@@ -7,7 +7,7 @@ use std::path::Path;
 use tempfile::TempDir;
 use terrarium::build::{build, examine};
 use terrarium::description::{Report, load};
-use terrarium::plan::Plan;
+use terrarium::plan::{Plan, Request};
 
 const TRIANGLES: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng bark\nf 1 2 3\ng leaves\nf 3 2 1\n";
 
@@ -123,12 +123,16 @@ fn a_mesh_whose_parts_are_all_named_needs_no_material() {
     let path = scene(&folder, &mesh(r#"{ "leaves": "m", "bark": "m" }"#));
     assert_eq!(headlines(&examined(&path), &folder), Vec::<String>::new());
     let loaded = load(&path, &[]).unwrap_or_else(|report| panic!("{report}"));
-    let built = build(&loaded.scene, &Plan::new(&loaded.scene, None, None));
+    let built =
+        build(&loaded.scene, &Plan::new(&loaded.scene, &Request::default()).expect("nothing is overridden"));
     assert_eq!(built.unwrap_or_else(|e| panic!("{e}")).world.bindings[0].len(), 2);
 
     let path = scene(&folder, &mesh(r#"{ "bark": "m" }"#));
     let expected = "scene.ron:2:47: error: objects.0: no `material` is given, here or by a group, and `parts` leaves out some of tree.obj: `leaves`";
     assert_eq!(headlines(&examined(&path), &folder), [expected]);
     let loaded = load(&path, &[]).unwrap_or_else(|report| panic!("{report}"));
-    assert!(build(&loaded.scene, &Plan::new(&loaded.scene, None, None)).is_err());
+    assert!(
+        build(&loaded.scene, &Plan::new(&loaded.scene, &Request::default()).expect("nothing is overridden"))
+            .is_err()
+    );
 }

@@ -4,7 +4,7 @@ use super::CAMERA;
 use std::path::Path;
 use terrarium::build::build;
 use terrarium::description::{Format, load_str};
-use terrarium::plan::Plan;
+use terrarium::plan::{Plan, Request};
 
 /// A hill within a group that is moved and mirrored, and what stands besides it and in it.
 fn scene(inside: &str, outside: &str) -> String {
@@ -26,7 +26,9 @@ fn copies_stand_on_an_object_of_a_group_wherever_the_scatter_is() {
     let scatter = r#"(shape: scatter(of: ["dot"], over: "hill", count: 500))"#;
     for text in [scene("", scatter), scene(scatter, "")] {
         let scene = load_str(&text, Format::Ron, Path::new(""), &[]).unwrap_or_else(|r| panic!("{r}")).scene;
-        let world = build(&scene, &Plan::new(&scene, None, None)).unwrap_or_else(|e| panic!("{e}")).world;
+        let world = build(&scene, &Plan::new(&scene, &Request::default()).expect("nothing is overridden"))
+            .unwrap_or_else(|e| panic!("{e}"))
+            .world;
         assert_eq!(world.instances.len(), 501);
         let mut reach = (f64::MAX, f64::MIN);
         for dot in &world.instances {

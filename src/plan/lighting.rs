@@ -1,0 +1,162 @@
+//! What lights the scene, and what that calls for.
+
+use super::Effect;
+use super::decide::{is_specular, who};
+use super::decision::{Cause, Decision, few};
+use super::placed::Use;
+use crate::description::{Light, Material, Photons, Rgb, Scene, Source};
+
+/// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
+pub(super) struct Lights<'a> {
+    /// Without an extent.
+    small: Vec<&'a str>,
+    large: Vec<&'a str>,
+    sky: Option<&'a str>,
+    /// Objects that emit.
+    objects: Vec<&'a str>,
+}
+
+impl<'a> Lights<'a> {
+    pub fn of(scene: &'a Scene, uses: &'a [Use]) -> Lights<'a> {
+        let mut lights = Lights { small: Vec::new(), large: Vec::new(), sky: None, objects: Vec::new() };
+        for (name, light) in scene.lights.iter().filter(|(_, light)| !is_black(light)) {
+            match light {
+                Light::Point { .. } | Light::Spot { .. } | Light::Directional { .. } => {
+                    lights.small.push(name)
+                }
+                Light::Sphere { .. } | Light::Quad { .. } | Light::Disk { .. } => lights.large.push(name),
+                Light::Environment { .. } => lights.sky = Some(name),
+            }
+        }
+        let emitting = uses.iter().filter(|u| emits(u.material));
+        for object in emitting.flat_map(|u| u.objects.iter().map(String::as_str)) {
+            if !lights.objects.contains(&object) {
+                lights.objects.push(object);
+            }
+        }
+        lights
+    }
+
+    /// Those with an extent.
+    fn soft(&self) -> Vec<&'a str> {
+        self.large.iter().chain(&self.objects).chain(&self.sky).copied().collect()
+    }
+
+    fn all(&self) -> Vec<&'a str> {
+        self.small.iter().copied().chain(self.soft()).collect()
+    }
+
+    pub fn direct(&self) -> Decision {
+        let lamps: Vec<&str> = self.small.iter().chain(&self.large).copied().collect();
+        let mut said = Vec::new();
+        if !lamps.is_empty() {
+            said.push(format!("{} {}", few(&lamps), if lamps.len() == 1 { "shines" } else { "shine" }));
+        }
+        if !self.objects.is_empty() {
+            let verb = if self.objects.len() == 1 { "emits" } else { "emit" };
+            said.push(format!("{} {verb}", few(&self.objects)));
+        }
+        let otherwise =
+            if self.sky.is_some() { "the sky is the only light" } else { "the scene has no light" };
+        Decision::of(Effect::Direct, (!said.is_empty()).then(|| said.join("; ")), otherwise)
+    }
+
+    pub fn shadows(&self) -> Decision {
+        let soft = self.soft();
+        let parts =
+            [("hard", &self.small), ("soft", &soft)].into_iter().filter(|(_, names)| !names.is_empty());
+        let said: Vec<String> = parts.map(|(kind, names)| format!("{kind}: {}", comma(names))).collect();
+        Decision::of(Effect::Shadows, (!said.is_empty()).then(|| said.join("; ")), "the scene has no light")
+    }
+
+    pub fn soft_shadows(&self) -> Decision {
+        let soft = self.soft();
+        let verb = if soft.len() == 1 { "has" } else { "have" };
+        let found = (!soft.is_empty()).then(|| format!("{} {verb} an extent", few(&soft)));
+        Decision::of(Effect::SoftShadows, found, "no light has an extent")
+    }
+
+    pub fn environment(&self) -> Decision {
+        let found = self.sky.map(|name| format!("`{name}` shines from all around"));
+        Decision::of(Effect::Environment, found, "no light is an environment")
+    }
+
+    pub fn highlights(&self, uses: &[Use]) -> Decision {
+        let shiny = who(uses, |m| (!m.specular.is_zero()).then(|| " is specular".to_owned()));
+        match shiny {
+            Some(_) if self.all().is_empty() => Decision::off(Effect::Highlights, "the scene has no light"),
+            found => Decision::of(Effect::Highlights, found, "no reachable material has a `specular` layer"),
+        }
+    }
+
+    /// Light is focused where there is light, something that bends or mirrors it, and something matt to see
+    /// it on. Which of the lights reach which of the objects is not known before they are placed.
+    pub fn caustics(&self, scene: &Scene, uses: &[Use]) -> Decision {
+        let off = |reason: &str| Decision::off(Effect::Caustics, reason);
+        let lights = self.all();
+        let specular: Vec<&str> = objects(uses, is_specular);
+        if lights.is_empty() {
+            return off("the scene has no light");
+        }
+        if specular.is_empty() {
+            return off("no reachable material reflects or transmits");
+        }
+        if !uses.iter().any(|u| receives(u.material)) {
+            return off(
+                "nothing can show them: every reachable material only reflects, transmits or is black",
+            );
+        }
+        if scene.photons == Photons::Off {
+            return off("the scene says `photons: off`").because(Cause::Asked);
+        }
+        let verb = if lights.len() == 1 { "shines" } else { "shine" };
+        let reason = format!("{} {verb} on {}", few(&lights), few(&specular));
+        let cause = if scene.photons.is_default() { Cause::Scene } else { Cause::Asked };
+        Decision::on(Effect::Caustics, reason).because(cause)
+    }
+}
+
+/// The objects of these materials, each once.
+fn objects<'a>(uses: &'a [Use], of: impl Fn(&Material) -> bool) -> Vec<&'a str> {
+    let mut objects: Vec<&str> = Vec::new();
+    let mut seen = std::collections::HashSet::new();
+    for object in uses.iter().filter(|u| of(u.material)).flat_map(|u| &u.objects) {
+        if seen.insert(object.as_str()) {
+            objects.push(object);
+        }
+    }
+    objects
+}
+
+/// All of a few names; of many the first.
+fn comma(names: &[&str]) -> String {
+    let told: Vec<String> = names.iter().take(4).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > 4 { format!(" and {} more", names.len() - 4) } else { String::new() };
+    told.join(", ") + &more
+}
+
+fn is_black(light: &Light) -> bool {
+    match light {
+        Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.is_zero(),
+        Light::Directional { irradiance, .. } => irradiance.is_zero(),
+        Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } | Light::Disk { radiance, .. } => {
+            radiance.is_zero()
+        }
+        Light::Environment { .. } => false,
+    }
+}
+
+fn emits(m: &Material) -> bool {
+    match &m.emission {
+        Source::Constant(c) => !c.is_zero(),
+        Source::Texture(t) => !t.scale.is_zero(),
+    }
+}
+
+/// Whether light that reaches it can be seen on it: (1−km)·(1−kt)·kd or ks are not zero. What a texture
+/// drives may be anything.
+pub(super) fn receives(m: &Material) -> bool {
+    let one = |weight: &Source| matches!(weight, Source::Constant(c) if *c == Rgb::grey(1.0));
+    let matt = !m.diffuse.is_zero() && !one(&m.reflection) && !one(&m.transmission);
+    matt || !m.specular.is_zero()
+}
