@@ -3,6 +3,7 @@
 
 mod assets;
 mod command_line;
+mod forecast;
 mod guide;
 mod layers;
 mod makefile;

@@ -165,7 +165,7 @@ impl Progress for Reporter {
     fn planned(&self, planned: &Planned) {
         if self.form == Form::Json {
             let (seconds, bytes) = (planned.seconds, planned.peak_bytes);
-            let line = serde_json::json!({ "v": 1, "predicted_s": seconds, "predicted_bytes": bytes });
+            let line = serde_json::json!({ "v": 1, "note": "planned", "predicted_s": seconds, "predicted_bytes": bytes });
             self.terminal.say(&line.to_string());
         } else if self.tells_plan {
             self.terminal.say(&plan::summary(planned));

@@ -6,7 +6,9 @@ pub struct Later {
     pub film: u64,
     /// While the photons of a pass are made beside those of the pass before.
     pub photons: u64,
-    /// Layers of the finished image.
+    /// What threads keep of the tiles that they work on.
+    pub tiles: u64,
+    /// Layers of the finished image, and of the one that is written.
     pub image: u64,
 }
 
@@ -31,8 +33,7 @@ pub fn held() -> Option<Held> {
 impl Held {
     /// The most that will have been held in the end.
     pub fn peak(&self, later: &Later) -> u64 {
-        // Freed memory is not all used again: each thread has its own.
-        let photons = later.photons + later.photons / 2;
-        (self.now + later.film + photons.max(later.image)).max(self.most)
+        // Not all at once; but what one stage frees, the next does not find in its own sizes and threads.
+        (self.now + later.film + later.photons + later.tiles + later.image).max(self.most)
     }
 }

@@ -32,7 +32,7 @@ impl RaysByPixel {
     }
 }
 
-/// The side of a block, pixels. Cells of adaptive antialiasing are shared within one.
+/// The side of a block in samples, and in pixels where adaptive antialiasing shares cells within it.
 const SIDE: u32 = 8;
 const ADAPTIVE_SIDE: u32 = 16;
 
@@ -92,14 +92,17 @@ impl Sum {
 /// Block number `i` of a well-distributed sequence of blocks, which may reach over the image's right and
 /// lower edge no more than over the others.
 fn block(tracer: &Tracer, pass: u32, i: u32) -> Sum {
-    let adaptive = matches!(tracer.plan.antialiasing, Antialiasing::Adaptive { .. });
-    let side = if adaptive { ADAPTIVE_SIDE } else { SIDE };
+    let side = match tracer.plan.antialiasing {
+        Antialiasing::Adaptive { .. } => ADAPTIVE_SIDE,
+        Antialiasing::Grid(n) => (2 * SIDE / n).clamp(1, SIDE),
+        Antialiasing::None | Antialiasing::Progressive => SIDE,
+    };
     let camera = &tracer.world.camera;
     let [u, v] = Sequence::new(tracer.plan.seed, Stage::Film, mix(u64::MAX - 1), i).pair();
     let part = |u: f64, size: u32| {
         let centre = (u * f64::from(size)) as u32;
         let start = centre.saturating_sub(side / 2);
-        (start, (centre + side / 2).min(size).max(start + 1) - start)
+        (start, (centre + side.div_ceil(2)).min(size) - start)
     };
     let ((x, width), (y, height)) = (part(u, camera.width), part(v, camera.height));
     let mut tile = Tile::new(x, y, width, height, trace::layers(&tracer.wants));

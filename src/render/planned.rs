@@ -6,6 +6,7 @@ use super::prepare::Prepared;
 use super::prices::first_photons;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
+use crate::plan::{Antialiasing, Plan};
 use crate::survey::Survey;
 use crate::trace::{self, Rays};
 use serde::Serialize;
@@ -52,7 +53,8 @@ impl Planned {
         let later = memory::Later {
             film,
             photons: if several { ready.photon_bytes() } else { 0 },
-            image: pixels * 4 * (3 + 3 * options.aovs.len() as u64),
+            tiles: kept_by_tiles(plan, options, cost.samples as f64 / (pixels * u64::from(plan.passes)) as f64),
+            image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
         };
         let mut prices = cost.bill;
         prices.add_photons(first_photons(first, clock));
@@ -73,3 +75,17 @@ impl Planned {
         }
     }
 }
+
+/// Adaptive antialiasing keeps a tile's samples in storage that doubles as they come; busy tiles have more
+/// of them than others.
+fn kept_by_tiles(plan: &Plan, options: &Options, samples_per_pixel: f64) -> u64 {
+    if !matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
+        return 0;
+    }
+    let pixels = f64::from(options.tile) * f64::from(options.tile);
+    let bytes = 3.0 * BUSY * samples_per_pixel * pixels * size_of::<trace::Sample>() as f64;
+    rayon::current_num_threads() as u64 * bytes as u64
+}
+
+/// Samples of the busiest tiles over those of the mean.
+const BUSY: f64 = 2.0;

@@ -50,7 +50,7 @@ impl Prepared {
             reference_level = trace::reference_level(&tracer);
         }
         let stages = PassStages::new(&world, &plan);
-        if stages.any() {
+        if stages.any() || matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
             clock.lap("pilot");
         }
         let survey = Survey::new(&world, &plan, stages.emission());
