@@ -16,6 +16,7 @@ use super::{Sample, Tally, Tracer};
 use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{DVec2, Ray, Vec3};
+use crate::plan::Carriers;
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,6 +115,16 @@ impl Tracer<'_> {
         }
     }
 
+    /// What light the path carries from where the branch is.
+    #[inline]
+    pub(super) fn carried(&self, branch: &Branch) -> Carriers {
+        match (branch.bounces, branch.class) {
+            (0, Class::Direct) => self.plan.carried.first,
+            (0, _) => self.plan.carried.behind,
+            _ => Carriers::ALL,
+        }
+    }
+
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
             return self.deposit(sample, branch, self.leaving(branch));
@@ -146,10 +157,12 @@ impl Tracer<'_> {
             _ => {}
         }
         // After a bounce, lights have been counted where the path left.
-        let emitted = if branch.bounces == 0 { shading.emitted() } else { Vec3::ZERO };
+        let carried = self.carried(branch);
+        let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
+        let emitted = if seen { shading.emitted() } else { Vec3::ZERO };
         let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
         self.deposit(sample, branch, radiance);
-        if shading.km != Vec3::ZERO {
+        if shading.km != Vec3::ZERO && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
             let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
@@ -168,9 +181,17 @@ impl Tracer<'_> {
         if absorption != Vec3::ZERO {
             return Vec3::ZERO;
         }
+        let carried = self.carried(branch);
         match &world.environment {
-            Some(environment) if world.environment_visible => environment.radiance(branch.ray.dir),
-            _ => world.background,
+            Some(environment) if world.environment_visible => {
+                if carried.any(Carriers::ENVIRONMENT) {
+                    environment.radiance(branch.ray.dir)
+                } else {
+                    Vec3::ZERO
+                }
+            }
+            _ if carried.any(Carriers::SEEN) => world.background,
+            _ => Vec3::ZERO,
         }
     }
 
@@ -193,7 +214,8 @@ impl Tracer<'_> {
         let weight = (Vec3::ONE - shading.km) * shading.kt * colour.weight;
         let wavelength = colour.um;
         let cone = branch.cone.after(surface.t);
-        if interface.reflectance > 0.0 {
+        let carried = self.carried(branch);
+        if interface.reflectance > 0.0 && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.reflection += 1;
@@ -207,7 +229,7 @@ impl Tracer<'_> {
                 tally,
             );
         }
-        if interface.reflectance < 1.0 {
+        if interface.reflectance < 1.0 && carried.any(Carriers::REFRACTION) {
             let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
             // From before the interface, which is no longer there for it, so that what touches is met.
             let start = if touches { Ray::reaching } else { Ray::leaving };
@@ -273,9 +295,12 @@ impl Tracer<'_> {
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        let mut radiance = base * self.world.ambient
-            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
-        if let Some(caustics) = &self.caustics {
+        let carried = self.carried(branch);
+        let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Vec3::ZERO };
+        let mut radiance = ambient + self.direct(base, branch, surface, shading, tally);
+        if let Some(caustics) = &self.caustics
+            && carried.any(Carriers::CAUSTICS)
+        {
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
             if branch.bounces == 0 {
@@ -286,6 +311,9 @@ impl Tracer<'_> {
                         branch.throughput * self.photon_dots(caustics, branch, surface, shading);
                 }
             }
+        }
+        if !carried.any(Carriers::INDIRECT) {
+            return radiance;
         }
         if let Some(indirect) = &self.indirect {
             let gathered = self.caustic(indirect, branch, base, surface, shading, tally).radiance;
