@@ -47,7 +47,9 @@ fn near(predicted: u64, real: u64, share: f64) -> bool {
 /// The pilot's blocks are a fair sample of the image: rays of every kind are foretold.
 #[test]
 fn rays_are_foretold_by_kind() {
-    for text in [GLASS.to_owned(), GLASS.replace("textures", "antialiasing: grid(2), textures"), MATT.to_owned()] {
+    for text in
+        [GLASS.to_owned(), GLASS.replace("textures", "antialiasing: grid(2), textures"), MATT.to_owned()]
+    {
         let (planned, stats) = both(&focused(text).passes(4));
         assert_eq!(planned.samples, stats.samples);
         for (kind, predicted, real) in [
@@ -136,14 +138,17 @@ fn effects_left_out_change_what_they_bring() {
     let prices =
         terrarium::measure::prices(&loaded, &options, &planned.survey.decisions, &Silent).expect("renders");
     let of = |effect| prices.left_out.iter().find(|row| row.effect == effect).expect("a row");
-    for effect in [Effect::Direct, Effect::Reflection, Effect::Refraction, Effect::Textures, Effect::Caustics] {
+    for effect in [Effect::Direct, Effect::Reflection, Effect::Refraction, Effect::Textures, Effect::Caustics]
+    {
         assert!(of(effect).relative_rms > 0.01 && !of(effect).same, "{:?}", of(effect));
     }
     for effect in [Effect::Direct, Effect::Reflection, Effect::Caustics] {
         assert!(of(effect).mean_change < 0.0, "{:?}", of(effect));
     }
     assert!(of(Effect::Shadows).mean_change > 0.0);
-    assert!(prices.left_out.iter().all(|row| row.effect != Effect::Indirect && row.effect != Effect::Dispersion));
+    assert!(
+        prices.left_out.iter().all(|row| row.effect != Effect::Indirect && row.effect != Effect::Dispersion)
+    );
     let folder = Path::new("").to_owned();
     let clear = focused(MATT).folder(&folder).load();
     let planned = render::plan(&clear, &options, &Silent).expect("a plan");

@@ -10,18 +10,20 @@ use super::objects::Placed;
 use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
-use crate::math::{Aabb, DVec3, Vec3};
+use crate::math::{Aabb, Vec3};
 use crate::optics::{Camera, Cauchy, Material, Spectrum, Weight};
+use crate::plan::Plan;
 use rayon::prelude::*;
 
 pub(super) fn assemble(
     scene: &Scene,
-    origin: DVec3,
+    plan: &Plan,
     camera: Camera,
     surfaces: Surfaces,
     mut placed: Placed,
     lights: Lights,
 ) -> Result<Built, BuildError> {
+    let origin = placed.origin;
     let mut warnings = surfaces.images.warnings().to_vec();
     warnings.append(&mut placed.meshes.warnings);
     let mut files = surfaces.images.files().to_vec();
@@ -32,7 +34,10 @@ pub(super) fn assemble(
         .par_iter()
         .map(|i| World::placed_bounds(&placed.geometries[i.geometry as usize], &i.placement))
         .collect();
-    let media = Transmissive::find(&placed, &surfaces.materials, &bounds);
+    let mut media = Transmissive::find(&placed, &surfaces.materials, &bounds);
+    if plan.forced() {
+        media.ranked.splice(0..0, media.null.drain(..));
+    }
     warnings.extend(media.open_meshes(&placed));
     for (instance, bounds) in placed.instances.iter_mut().zip(&mut bounds) {
         if !instance.visible {

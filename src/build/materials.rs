@@ -8,6 +8,7 @@ use crate::description::{
 };
 use crate::math::Vec3;
 use crate::optics::{Cauchy, Material, MaterialId, Relief, Texture, TextureId, Weight};
+use crate::plan::{Effect, Plan, used_materials};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -25,13 +26,15 @@ pub(super) fn rgb(c: &description::Rgb) -> Vec3 {
 }
 
 impl Surfaces {
-    pub fn load(scene: &Scene) -> Result<Surfaces, BuildError> {
-        let used = crate::plan::used_materials(scene);
+    pub fn load(scene: &Scene, plan: &Plan) -> Result<Surfaces, BuildError> {
+        let used = used_materials(scene);
         let images = Images::new(Path::new(""), Limits::default());
-        let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
+        let flat = plan.leaves_out(Effect::Textures);
+        let mut textures = Textures { scene, flat, list: Vec::new(), ids: HashMap::new(), images };
         let (mut materials, mut ids) = (Vec::new(), HashMap::new());
         for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
-            let material = textures.material(described)?;
+            let mut material = textures.material(described)?;
+            material.textured |= plan.forced();
             check_energy(name, &material, &textures.list)?;
             ids.insert(name.to_owned(), MaterialId(materials.len() as u32));
             materials.push(material);
@@ -42,9 +45,9 @@ impl Surfaces {
     /// What is wrong with the images that used materials name, and with what these make of them; gives
     /// back the images.
     pub fn examine(scene: &Scene, findings: &mut Findings) -> Images {
-        let used = crate::plan::used_materials(scene);
+        let used = used_materials(scene);
         let images = Images::new(Path::new(""), Limits::default());
-        let mut textures = Textures { scene, list: Vec::new(), ids: HashMap::new(), images };
+        let mut textures = Textures { scene, flat: false, list: Vec::new(), ids: HashMap::new(), images };
         let mut broken = HashSet::new();
         for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
             for (texture, usage) in named_textures(described) {
@@ -106,32 +109,40 @@ fn named_textures(m: &Described) -> impl Iterator<Item = (&str, TextureUse)> {
 /// Textures are loaded when a material first names them.
 struct Textures<'a> {
     scene: &'a Scene,
+    /// Whether weights take each texture's mean in its place.
+    flat: bool,
     list: Vec<Texture>,
     /// By name and by what its numbers are used for.
     ids: HashMap<(String, TextureUse), TextureId>,
     images: Images,
 }
 
-impl Textures<'_> {
+impl<'a> Textures<'a> {
     fn id(&mut self, name: &str, usage: TextureUse) -> Result<TextureId, BuildError> {
         if let Some(&id) = self.ids.get(&(name.to_owned(), usage)) {
             return Ok(id);
         }
-        let described = self
-            .scene
-            .textures
-            .get(name)
-            .ok_or_else(|| BuildError::Invalid(format!("no texture is named `{name}`")))?;
-        let texture = self.images.texture(described, usage)?;
+        let texture = self.images.texture(self.described(name)?, usage)?;
         let id = TextureId(self.list.len() as u32);
         self.list.push(texture);
         self.ids.insert((name.to_owned(), usage), id);
         Ok(id)
     }
 
+    /// The mean colour of a texture, which is not kept.
+    fn mean(&mut self, name: &str) -> Result<Vec3, BuildError> {
+        Ok(self.images.texture(self.described(name)?, TextureUse::Color)?.mean())
+    }
+
+    fn described(&self, name: &str) -> Result<&'a description::Texture, BuildError> {
+        let scene = self.scene;
+        scene.textures.get(name).ok_or_else(|| BuildError::Invalid(format!("no texture is named `{name}`")))
+    }
+
     fn weight(&mut self, source: &Source) -> Result<Weight, BuildError> {
         Ok(match source {
             Source::Constant(c) => Weight::Constant(rgb(c)),
+            Source::Texture(t) if self.flat => Weight::Constant(self.mean(&t.name)? * rgb(&t.scale)),
             Source::Texture(t) => Weight::Texture(self.id(&t.name, TextureUse::Color)?, rgb(&t.scale)),
         })
     }

@@ -64,11 +64,11 @@ pub fn build(scene: &Scene, plan: &Plan) -> Result<Built, BuildError> {
     let description =
         scene.camera.as_ref().ok_or_else(|| BuildError::Invalid("the scene has no camera".to_owned()))?;
     let origin = DVec3::from(description.target);
-    let mut surfaces = materials::Surfaces::load(scene)?;
+    let mut surfaces = materials::Surfaces::load(scene, plan)?;
     let mut placed = objects::place(scene, origin, &surfaces)?;
     let lights = lights::translate(scene, plan, origin, &mut surfaces, &mut placed)?;
     let camera = camera::translate(description, &scene.image, origin);
-    assemble::assemble(scene, origin, camera, surfaces, placed, lights)
+    assemble::assemble(scene, plan, camera, surfaces, placed, lights)
 }
 
 impl From<images::ImageError> for BuildError {

@@ -13,6 +13,8 @@ use std::collections::HashMap;
 
 /// All placed objects of a scene.
 pub(super) struct Placed {
+    /// Where the renderer's coordinates begin, in the scene's.
+    pub origin: DVec3,
     pub geometries: Vec<Geometry>,
     pub instances: Vec<Instance>,
     pub bindings: Vec<Vec<MaterialId>>,
@@ -50,6 +52,7 @@ pub(super) struct Context<'a> {
 /// Places all objects; `origin` is subtracted from the scene's coordinates.
 pub(super) fn place(scene: &Scene, origin: DVec3, surfaces: &Surfaces) -> Result<Placed, BuildError> {
     let placed = Placed {
+        origin,
         geometries: Vec::new(),
         instances: Vec::new(),
         bindings: Vec::new(),

@@ -56,6 +56,10 @@ pub struct Plan {
     pub indirect_photons: PhotonBudget,
     /// Which light the eye's paths carry.
     pub carried: Carried,
+    /// Whether shadow rays are traced; without them nothing hides a light.
+    pub shadows: bool,
+    /// Whether lights with an extent are sampled all over; else at their middle.
+    pub soft_shadows: bool,
     /// One an effect, in the order of [`Effect::ALL`].
     pub decisions: Vec<Decision>,
     pub overrides: Overrides,
@@ -107,6 +111,8 @@ impl Plan {
                 Indirect::Bounces(n) => n,
             },
             carried,
+            shadows: !overrides.leaves_out(Effect::Shadows),
+            soft_shadows: !overrides.leaves_out(Effect::SoftShadows),
             decisions,
             overrides,
             notes,
@@ -122,7 +128,7 @@ impl Plan {
         self.decisions.iter().any(|d| d.effect == effect && d.on)
     }
 
-    /// Whether an override leaves out an effect that shapes light.
+    /// Whether an override leaves it out.
     pub fn leaves_out(&self, effect: Effect) -> bool {
         self.overrides.leaves_out(effect)
     }
@@ -142,12 +148,12 @@ impl Plan {
         else {
             return 1;
         };
-        if self.leaves_out(Effect::SoftShadows) { 1 } else { samples.unwrap_or(self.area_samples()).max(1) }
+        if self.soft_shadows { samples.unwrap_or(self.area_samples()).max(1) } else { 1 }
     }
 
     /// Shadow rays a shading point on an emitting object.
     pub fn area_samples(&self) -> u32 {
-        let one = self.antialiasing == Antialiasing::Progressive || self.leaves_out(Effect::SoftShadows);
+        let one = self.antialiasing == Antialiasing::Progressive || !self.soft_shadows;
         if one { 1 } else { SINGLE_PASS_LIGHT_SAMPLES }
     }
 

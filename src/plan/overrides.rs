@@ -204,9 +204,7 @@ pub(super) fn edited<'a>(scene: &'a Scene, overrides: &Overrides, carried: &Carr
     } else if overrides.with.contains(&Effect::Indirect) && edited.indirect.is_off() {
         edited.indirect = Indirect::On;
     }
-    if !carried.anywhere(Effect::Caustics) || without(Effect::Caustics) {
-        edited.photons = Photons::Off;
-    } else if overrides.with.contains(&Effect::Caustics) && edited.photons == Photons::Off {
+    if overrides.with.contains(&Effect::Caustics) && edited.photons == Photons::Off {
         edited.photons = Photons::default();
     }
     Cow::Owned(edited)

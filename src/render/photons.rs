@@ -4,7 +4,7 @@ use crate::build::World;
 use crate::forecast::PhotonSeconds;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
 use crate::math::Health;
-use crate::plan::{self, IndirectBy, PhotonBudget, PhotonEngine, Plan};
+use crate::plan::{self, Carriers, IndirectBy, PhotonBudget, PhotonEngine, Plan};
 use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
 use std::time::Instant;
@@ -50,8 +50,10 @@ impl PhotonStage {
     /// `None` where the plan has no caustics, or no light reaches a mirror or an interface.
     pub fn caustic(world: &World, plan: &Plan) -> Option<PhotonStage> {
         let budget = plan.photons?;
-        let emission = Emission::new(world, plan)?;
-        let radius = MAX_RADIUS * emission.caster_radius();
+        let emission = Emission::new(world, plan);
+        let radius = MAX_RADIUS * emission.as_ref().map_or(0.0, Emission::caster_radius);
+        let emission =
+            if plan.forced() { Emission::of(world, plan, Store::Caustics, Aim::Scene) } else { emission }?;
         Some(PhotonStage::of(world, emission, budget, radius))
     }
 
@@ -159,10 +161,11 @@ impl PassMaps {
 
 impl PassStages {
     pub fn new(world: &World, plan: &Plan) -> PassStages {
-        PassStages {
-            caustic: PhotonStage::caustic(world, plan),
-            indirect: PhotonStage::indirect(world, plan),
-        }
+        let indirect = PhotonStage::indirect(world, plan);
+        // Where photons find indirect light, nothing else asks for caustics behind matt surfaces.
+        let seen = plan.carried.first.with(plan.carried.behind).any(Carriers::CAUSTICS);
+        let caustic = if seen || indirect.is_none() { PhotonStage::caustic(world, plan) } else { None };
+        PassStages { caustic, indirect }
     }
 
     /// What photons of caustics are sent from where.

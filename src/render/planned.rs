@@ -53,7 +53,11 @@ impl Planned {
         let later = memory::Later {
             film,
             photons: if several { ready.photon_bytes() } else { 0 },
-            tiles: kept_by_tiles(plan, options, cost.samples as f64 / (pixels * u64::from(plan.passes)) as f64),
+            tiles: kept_by_tiles(
+                plan,
+                options,
+                cost.samples as f64 / (pixels * u64::from(plan.passes)) as f64,
+            ),
             image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
         };
         let mut prices = cost.bill;

@@ -5,12 +5,16 @@
 //! light, glass as well: what glass lets through is a caustic.
 
 use super::light::{Arrival, LightSample};
-use super::path::LIGHTS;
+use super::path::{Branch, LIGHTS};
 use super::{Tally, Tracer};
-use crate::build::{MediaSet, Shading, Surface};
-use crate::math::random::Sequence;
+use crate::build::{Shading, Surface};
 use crate::math::{Ray, Vec3};
+use crate::optics::EmitterKind;
+use crate::plan::Carriers;
 use std::f64::consts::{FRAC_1_PI, TAU};
+
+/// Of a light's sampling domain: where it is sampled without soft shadows.
+const MIDDLE: [f64; 2] = [0.5; 2];
 
 impl Tracer<'_> {
     /// Light that the point reflects towards wo from all emitters; `base` is the weight of its
@@ -18,26 +22,36 @@ impl Tracer<'_> {
     pub(super) fn direct(
         &self,
         base: Vec3,
+        branch: &Branch,
         surface: &Surface,
         shading: &Shading,
-        media: &MediaSet,
-        sequence: Sequence,
         tally: &mut Tally,
     ) -> Vec3 {
+        let (carried, sequence) = (self.carried(branch), branch.sequence);
+        let if_carried = |effect, weight| if carried.any(effect) { weight } else { Vec3::ZERO };
+        let lamps = [if_carried(Carriers::DIRECT, base), if_carried(Carriers::HIGHLIGHTS, shading.ks)];
+        // Light from all around has no middle that a highlight could show.
+        let shine = if self.plan.soft_shadows { shading.ks } else { Vec3::ZERO };
+        let sky = [base, shine].map(|weight| if_carried(Carriers::ENVIRONMENT, weight));
         let mut sum = Vec3::ZERO;
         for (i, emitter) in (0u64..).zip(&self.world.emitters) {
+            let lobes = if matches!(emitter.kind, EmitterKind::Environment) { sky } else { lamps };
+            if lobes == [Vec3::ZERO; 2] {
+                continue;
+            }
             let mut light = Vec3::ZERO;
             for k in 0..emitter.samples {
                 // Only emitters with an extent draw it.
-                let u = || sequence.dimension(LIGHTS).dimension(i).split(k, emitter.samples).pair();
+                let drawn = || sequence.dimension(LIGHTS).dimension(i).split(k, emitter.samples).pair();
+                let u = || if self.plan.soft_shadows { drawn() } else { MIDDLE };
                 let Some(sample) = self.light_sample(emitter, surface, shading, u) else { continue };
-                let value = sample.value * reflected_share(base, shading, &sample);
+                let value = sample.value * reflected_share(lobes, shading, &sample);
                 if value == Vec3::ZERO {
                     continue;
                 }
-                tally.rays.shadow += 1;
+                tally.rays.shadow += u64::from(self.plan.shadows);
                 if self.visible(surface, shading, &sample) {
-                    light += value * self.world.transmittance(media, sample.distance);
+                    light += value * self.world.transmittance(&branch.media, sample.distance);
                 }
             }
             sum += light / emitter.samples as f32;
@@ -52,6 +66,9 @@ impl Tracer<'_> {
         if !above && !lifted {
             // Lit through the back of the surface: only the shading normal says otherwise.
             return false;
+        }
+        if !self.plan.shadows {
+            return true;
         }
         let start = if lifted { surface.shadow_p } else { surface.p };
         let origin = start + shading.ng * surface.p_error;
@@ -73,15 +90,15 @@ impl Tracer<'_> {
     }
 }
 
-/// f(wo, wi)·cosθ_i.
+/// f(wo, wi)·cosθ_i of the Lambert layer and of the highlight, each of its weight.
 #[inline]
-fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 {
+fn reflected_share([base, ks]: [Vec3; 2], shading: &Shading, sample: &LightSample) -> Vec3 {
     let cos = sample.wi.dot(shading.ns);
     if cos <= 0.0 {
         return Vec3::ZERO;
     }
     let lambert = base * (cos * FRAC_1_PI) as f32;
-    if shading.ks == Vec3::ZERO {
+    if ks == Vec3::ZERO {
         return lambert;
     }
     let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
@@ -90,5 +107,5 @@ fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 
         return lambert;
     }
     let s = shading.material.shininess;
-    lambert + shading.ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
+    lambert + ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
 }

@@ -89,7 +89,8 @@ impl Tracer<'_> {
             Some((dir / length, sample.pdf * length * length * length / placement.det().abs()))
         };
         let (dir, pdf) = by_shape(u)?;
-        let (dir, pdf) = match Highlight::of(shading).filter(|highlight| highlight.peak() > pdf) {
+        let narrow = |highlight: &Highlight| self.plan.soft_shadows && highlight.peak() > pdf;
+        let (dir, pdf) = match Highlight::of(shading).filter(narrow) {
             None => (dir, pdf),
             Some(highlight) => {
                 let first = u[0] < 0.5;
@@ -164,6 +165,16 @@ impl Tracer<'_> {
     /// the cosine of the surface, which serves wide and even skies better; and its highlight's, if it has one.
     fn environment_sample(&self, shading: &Shading, u: [f64; 2]) -> Option<LightSample> {
         let environment = self.world.environment.as_ref()?;
+        if !self.plan.soft_shadows {
+            // The middle of the surface's cosine, which stands for all of the sky.
+            let (wi, value) = (shading.ns, environment.radiance(shading.ns) * std::f32::consts::PI);
+            return (value != Vec3::ZERO).then_some(LightSample {
+                wi,
+                value,
+                distance: f64::INFINITY,
+                arrival: Arrival::Infinite,
+            });
+        }
         let highlight = Highlight::of(shading);
         let strategies = if highlight.is_some() { 3.0 } else { 2.0 };
         let choice = strategies * u[0];

@@ -16,6 +16,7 @@ use super::{Part, Sample, Tally, Tracer};
 use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{DVec2, Ray, Vec3};
+use crate::plan::Carriers;
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,6 +128,16 @@ impl Tracer<'_> {
         }
     }
 
+    /// What light the path carries from where the branch is.
+    #[inline]
+    pub(super) fn carried(&self, branch: &Branch) -> Carriers {
+        match (branch.bounces, branch.class) {
+            (0, Class::Direct) => self.plan.carried.first,
+            (0, _) => self.plan.carried.behind,
+            _ => Carriers::ALL,
+        }
+    }
+
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         tally.watch.enter(branch.part());
         let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
@@ -160,10 +171,12 @@ impl Tracer<'_> {
             _ => {}
         }
         // After a bounce, lights have been counted where the path left.
-        let emitted = if branch.bounces == 0 { shading.emitted() } else { Vec3::ZERO };
+        let carried = self.carried(branch);
+        let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
+        let emitted = if seen { shading.emitted() } else { Vec3::ZERO };
         let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
         self.deposit(sample, branch, radiance);
-        if shading.km != Vec3::ZERO {
+        if shading.km != Vec3::ZERO && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
             let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
@@ -182,9 +195,17 @@ impl Tracer<'_> {
         if absorption != Vec3::ZERO {
             return Vec3::ZERO;
         }
+        let carried = self.carried(branch);
         match &world.environment {
-            Some(environment) if world.environment_visible => environment.radiance(branch.ray.dir),
-            _ => world.background,
+            Some(environment) if world.environment_visible => {
+                if carried.any(Carriers::ENVIRONMENT) {
+                    environment.radiance(branch.ray.dir)
+                } else {
+                    Vec3::ZERO
+                }
+            }
+            _ if carried.any(Carriers::SEEN) => world.background,
+            _ => Vec3::ZERO,
         }
     }
 
@@ -207,7 +228,8 @@ impl Tracer<'_> {
         let weight = (Vec3::ONE - shading.km) * shading.kt * colour.weight;
         let wavelength = colour.um;
         let cone = branch.cone.after(surface.t);
-        if interface.reflectance > 0.0 {
+        let carried = self.carried(branch);
+        if interface.reflectance > 0.0 && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
             tally.rays.reflection += 1;
@@ -221,7 +243,7 @@ impl Tracer<'_> {
                 tally,
             );
         }
-        if interface.reflectance < 1.0 {
+        if interface.reflectance < 1.0 && carried.any(Carriers::REFRACTION) {
             let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
             // From before the interface, which is no longer there for it, so that what touches is met.
             let start = if touches { Ray::reaching } else { Ray::leaving };
@@ -287,10 +309,13 @@ impl Tracer<'_> {
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
+        let carried = self.carried(branch);
+        let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Vec3::ZERO };
         tally.watch.enter(Part::Direct);
-        let mut radiance = base * self.world.ambient
-            + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
-        if let Some(caustics) = &self.caustics {
+        let mut radiance = ambient + self.direct(base, branch, surface, shading, tally);
+        if let Some(caustics) = &self.caustics
+            && carried.any(Carriers::CAUSTICS)
+        {
             tally.watch.enter(Part::Caustics);
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
@@ -302,6 +327,10 @@ impl Tracer<'_> {
                         branch.throughput * self.photon_dots(caustics, branch, surface, shading);
                 }
             }
+        }
+        if !carried.any(Carriers::INDIRECT) {
+            tally.watch.enter(branch.part());
+            return radiance;
         }
         if let Some(indirect) = &self.indirect {
             tally.watch.enter(Part::Indirect);

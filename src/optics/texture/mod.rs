@@ -89,6 +89,14 @@ impl Texture {
         }
     }
 
+    /// The mean colour: what a footprint that covers all of it sees.
+    pub fn mean(&self) -> Vec3 {
+        // Wide enough for every filter, and its square still finite.
+        let wide = 1e30;
+        let duv = [DVec2::new(wide, 0.0), DVec2::new(0.0, wide)];
+        self.color(&TexturePoint { uv: DVec2::ZERO, duv, p: DVec3::ZERO, dp: wide })
+    }
+
     /// No lookup exceeds this, channel by channel.
     pub fn max(&self) -> Vec3 {
         match self {
