@@ -23,9 +23,18 @@ pub enum Reach<'a> {
 impl Caustics<'_> {
     /// The density estimate at `p` on the side of the unit geometric normal `n`. `least` is the smallest
     /// first radius that makes sense there, metres and above 0: that of what the camera cannot resolve.
+    /// `within` is a radius, metres, that replaces all of that.
     #[inline]
-    pub fn gather(&self, p: Vec3, n: Vec3, least: f32, brdf: impl Fn(Vec3) -> Vec3) -> Gathered {
+    pub fn gather(
+        &self,
+        p: Vec3,
+        n: Vec3,
+        least: f32,
+        within: Option<f32>,
+        brdf: impl Fn(Vec3) -> Vec3,
+    ) -> Gathered {
         let radius = match self.reach {
+            _ if let Some(radius) = within => Radius::Fixed(radius),
             Reach::Shrinking { first, factor } => Radius::Fixed(first.radius(p, n).max(least) * factor),
             Reach::Nearest { k, max } => Radius::Nearest { k, min: least.min(max), max },
         };

@@ -4,7 +4,7 @@
 //! shading normal. Each is weighed by cosθ_shading/cosθ_geometric (Veach 1997, 5.3), so that photons
 //! and shadow rays agree on smooth meshes and under normal maps.
 
-use super::path::{Branch, COVERAGE};
+use super::path::{Branch, COVERAGE, INNER};
 use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
 use crate::index::{Caustics, Gathered};
@@ -23,6 +23,8 @@ pub struct Caustic {
     pub radiance: Vec3,
     /// Photons by area, 1/m².
     pub density: f32,
+    /// What the estimate's blur adds; known only where it is looked at.
+    pub bias: Vec3,
 }
 
 impl Tracer<'_> {
@@ -46,25 +48,38 @@ impl Tracer<'_> {
         let by_normals =
             |wi: Vec3| if bent { (wi.dot(ns).max(0.0) / wi.dot(ng).max(1e-3)).min(10.0) } else { 1.0 };
         let lambert = base * std::f32::consts::FRAC_1_PI;
-        let gathered = if shading.ks == Vec3::ZERO {
-            caustics.gather(p, ng, least, |wi| lambert * by_normals(wi))
-        } else {
+        let gather = |within: Option<f32>| {
+            if shading.ks == Vec3::ZERO {
+                return caustics.gather(p, ng, least, within, |wi| lambert * by_normals(wi));
+            }
             let mirror = (shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo).as_vec3();
             let exponent = shading.material.shininess;
             let peak = shading.ks * ((exponent + 2.0) / TAU) as f32;
-            caustics.gather(p, ng, least, |wi| {
+            caustics.gather(p, ng, least, within, |wi| {
                 let cos = f64::from(mirror.dot(wi).clamp(0.0, 1.0));
                 let lobe = if cos > 0.0 { libm::pow(cos, exponent) as f32 } else { 0.0 };
                 (lambert + peak * lobe) * by_normals(wi)
             })
         };
+        let gathered = gather(None);
         if gathered.photons == 0 {
             return Caustic::default();
         }
-        let correction = self.edge_correction(caustics, surface, shading, &gathered, branch.sequence, tally);
+        let sequence = branch.sequence.dimension(COVERAGE);
+        let correction = self.edge_correction(caustics, surface, shading, &gathered, sequence, tally);
+        let bias = if tally.probing {
+            // The blur's bias goes as r² (Silverman 1986, 4.3): half of it is gone at r/√2.
+            let inner = gather(Some(gathered.radius * std::f32::consts::FRAC_1_SQRT_2));
+            let sequence = branch.sequence.dimension(INNER);
+            let inner_correction =
+                self.edge_correction(caustics, surface, shading, &inner, sequence, tally);
+            2.0 * (gathered.radiance * correction - inner.radiance * inner_correction)
+        } else {
+            Vec3::ZERO
+        };
         let area = std::f32::consts::PI * gathered.radius * gathered.radius;
         let density = gathered.photons as f32 / area;
-        Caustic { radiance: gathered.radiance * correction, density: density * correction }
+        Caustic { radiance: gathered.radiance * correction, density: density * correction, bias }
     }
 
     /// White where a photon lies within what a pixel covers, in the photon's colour.
@@ -105,7 +120,6 @@ impl Tracer<'_> {
         }
         let frame = Frame::around(shading.ng);
         let lift = shading.ng * (0.25 * radius + surface.p_error);
-        let sequence = sequence.dimension(COVERAGE);
         let lies_on_surface = |count: u32, trial: u32| {
             let [u, v] = sequence.dimension(u64::from(trial)).split(count, COUNTS).pair();
             let (sin, cos) = libm::sincos(TAU * v);

@@ -9,6 +9,7 @@ mod caustic;
 mod direct;
 mod light;
 mod path;
+mod probe;
 mod reference_level;
 mod sample;
 mod tile;
@@ -16,9 +17,10 @@ mod watch;
 
 use crate::build::World;
 use crate::index::Caustics;
-use crate::math::Health;
+use crate::math::{Health, Vec3};
 use crate::plan::Plan;
 pub use path::Scratch;
+pub use probe::{Kind, Probe, Probes};
 pub use reference_level::reference_level;
 pub use sample::{Sample, Wants};
 use serde::Serialize;
@@ -54,6 +56,10 @@ pub struct Tally {
     pub watch: Watch,
     /// Of one thread, on tiles.
     pub seconds: f64,
+    /// Whether the bias of photons is looked at; and what it is, of caustic and indirect light, summed over
+    /// the samples since it was cleared.
+    probing: bool,
+    bias: [Vec3; 2],
 }
 
 /// Paths that the depth limit has cut.
@@ -114,5 +120,6 @@ pub fn layers(wants: &Wants) -> Layers {
         split: wants.split,
         variance: wants.variance,
         photons: wants.photons,
+        probes: wants.probes,
     }
 }

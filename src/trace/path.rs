@@ -70,6 +70,7 @@ const REFRACTED: u64 = 5;
 
 pub(super) const BOUNCE: u64 = 7;
 pub(super) const COVERAGE: u64 = 8;
+pub(super) const INNER: u64 = 10;
 const WAVELENGTH: u64 = 9;
 
 /// Dimensions of a camera sample.
@@ -319,6 +320,7 @@ impl Tracer<'_> {
             tally.watch.enter(Part::Caustics);
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
+            tally.bias[0] += branch.throughput * caustic.bias;
             if branch.bounces == 0 {
                 sample.caustic += branch.throughput * caustic.radiance;
                 sample.photon_density += branch.throughput.max_element() * caustic.density;
@@ -334,9 +336,10 @@ impl Tracer<'_> {
         }
         if let Some(indirect) = &self.indirect {
             tally.watch.enter(Part::Indirect);
-            let gathered = self.caustic(indirect, branch, base, surface, shading, tally).radiance;
-            sample.indirect += branch.throughput * gathered;
-            radiance += gathered;
+            let gathered = self.caustic(indirect, branch, base, surface, shading, tally);
+            sample.indirect += branch.throughput * gathered.radiance;
+            tally.bias[1] += branch.throughput * gathered.bias;
+            radiance += gathered.radiance;
         }
         tally.watch.enter(branch.part());
         if self.indirect.is_none()

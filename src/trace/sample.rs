@@ -1,5 +1,6 @@
 //! What one camera sample yields.
 
+use super::Probes;
 use crate::math::Vec3;
 
 /// What is wanted of every sample beyond its radiance.
@@ -12,6 +13,8 @@ pub struct Wants {
     pub variance: bool,
     /// Photons as dots, and their density.
     pub photons: bool,
+    /// Pixels that the picture's error is estimated from.
+    pub probes: Option<Probes>,
 }
 
 /// The radiance along one camera ray, W·m⁻²·sr⁻¹, and what the ray met first.
@@ -49,6 +52,11 @@ pub struct FirstHit {
 }
 
 impl Sample {
+    /// What of it neither photons nor paths from surface to surface brought.
+    pub(super) fn rest(&self) -> Vec3 {
+        self.radiance - self.caustic - self.indirect
+    }
+
     pub fn is_finite(&self) -> bool {
         self.radiance.is_finite()
     }

@@ -4,6 +4,7 @@
 //! are double precision and taken in the order of the passes: the size of the tiles and the number
 //! of threads change nothing.
 
+use super::{Probe, Probes};
 use crate::math::DVec3;
 
 /// A pixel's value in one pass.
@@ -25,6 +26,10 @@ pub struct PixelValue {
     pub object: u32,
     /// Samples, or cells of the adaptive subdivision, that the value is made of.
     pub samples: u32,
+    /// What the density estimate's blur adds to caustic and indirect light; known for some probes.
+    pub bias: Option<[DVec3; 2]>,
+    /// How two samples at one place differ in what photons did not bring; known for some probes.
+    pub pair: Option<DVec3>,
 }
 
 /// What the film keeps beyond radiance.
@@ -34,6 +39,7 @@ pub struct Layers {
     pub split: bool,
     pub variance: bool,
     pub photons: bool,
+    pub probes: Option<Probes>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,6 +82,9 @@ pub struct Tile {
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
     photons: Vec<PhotonSums>,
+    /// One a square; empty where a square's probe is another tile's.
+    probes: Vec<Probe>,
+    placed: Option<Probes>,
 }
 
 impl Tile {
@@ -87,6 +96,7 @@ impl Tile {
 
     pub fn new(x: u32, y: u32, width: u32, height: u32, layers: Layers) -> Tile {
         let n = width as usize * height as usize;
+        let squares = |placed: Probes| placed.squares(x, width) * placed.squares(y, height);
         let if_kept = |kept: bool| if kept { n } else { 0 };
         Tile {
             x,
@@ -100,6 +110,8 @@ impl Tile {
             first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
             photons: vec![PhotonSums::default(); if_kept(layers.photons)],
+            probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
+            placed: layers.probes,
         }
     }
 
@@ -111,6 +123,11 @@ impl Tile {
 
     fn index(&self, x: u32, y: u32) -> usize {
         (y - self.y) as usize * self.width as usize + (x - self.x) as usize
+    }
+
+    /// The statistics of the tile's probes that have passes.
+    pub fn probes(&self) -> impl Iterator<Item = &Probe> {
+        self.probes.iter().filter(|probe| probe.passes > 0)
     }
 
     /// Adds a pass's value to a pixel of the tile, given in image coordinates.
@@ -126,6 +143,10 @@ impl Tile {
         self.radiance[i] += value.radiance;
         self.passes[i] += 1;
         self.samples[i] += u64::from(value.samples);
+        if let Some(placed) = self.placed.filter(|placed| placed.is_probe(x, y)) {
+            let slot = placed.slot([x, y], [self.x, self.y], self.width);
+            self.probes[slot].add(x, y, value);
+        }
         if let Some(split) = self.split.get_mut(i) {
             split.direct += value.direct;
             split.reflection += value.reflection;
@@ -190,6 +211,7 @@ impl Tile {
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
             + self.photons.len() * size_of::<PhotonSums>()
+            + self.probes.len() * size_of::<Probe>()
     }
 
     /// Samples a pass of each pixel.

@@ -42,7 +42,7 @@ pub(super) fn pass(
         finer: HashMap::default(),
     };
     for (x, y) in tile.pixels() {
-        let mut average = Average::of(tracer.wants);
+        let mut average = Average::of(super::wants(tracer, super::is_probe(tracer, x, y)));
         let size = lattice.steps;
         let mut used = 0;
         lattice.cell(x * size, y * size, size, &mut average, &mut used);

@@ -77,6 +77,8 @@ impl Average {
             depth: self.depth * inverse,
             object: self.object.unwrap_or(0),
             samples,
+            bias: None,
+            pair: None,
         })
     }
 }

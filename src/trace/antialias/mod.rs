@@ -3,7 +3,7 @@
 mod adaptive;
 mod average;
 
-use super::{Sample, Scratch, Tally, Tracer};
+use super::{Sample, Scratch, Tally, Tracer, Wants};
 use crate::math::random::{Sequence, Stage};
 use crate::math::{DVec2, Place};
 use crate::plan::Antialiasing;
@@ -22,6 +22,9 @@ pub(super) fn pass(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Sc
     }
 }
 
+/// The values of a second sample at one place.
+const ANOTHER: u64 = 0x5ec0_0d5a;
+
 fn pixel_number(tracer: &Tracer, x: u32, y: u32) -> u64 {
     u64::from(y) * u64::from(tracer.world.camera.width) + u64::from(x)
 }
@@ -30,7 +33,9 @@ fn pixel_number(tracer: &Tracer, x: u32, y: u32) -> u64 {
 fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
     for (x, y) in tile.pixels() {
         let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
-        let mut average = Average::of(tracer.wants);
+        let probe = is_probe(tracer, x, y);
+        let mut average = Average::of(wants(tracer, probe));
+        look(tally, probe, pass);
         for i in 0..n * n {
             let index = pass.wrapping_mul(n * n).wrapping_add(i);
             let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
@@ -38,8 +43,35 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
             let sample = tracer.sample(film, pixel.at(index), scratch, tally);
             add_finite(&mut average, &sample, Place { x, y, pass }, tally);
         }
-        add(tile, x, y, average.value(n * n));
+        let value = average.value(n * n).map(|value| with_bias(value, tally, n * n));
+        add(tile, x, y, value);
     }
+}
+
+fn is_probe(tracer: &Tracer, x: u32, y: u32) -> bool {
+    tracer.wants.probes.is_some_and(|probes| probes.is_probe(x, y))
+}
+
+/// Of a probe's light, the parts are kept.
+fn wants(tracer: &Tracer, probe: bool) -> Wants {
+    Wants { split: tracer.wants.split || probe, ..tracer.wants }
+}
+
+/// One pass in so many looks at the photons' bias, and takes two samples at one place: both of them cost time.
+const LOOK: u32 = 2;
+const PAIR: u32 = 4;
+
+/// Begins to look at the bias, if that is due.
+fn look(tally: &mut Tally, probe: bool, pass: u32) {
+    tally.probing = probe && pass % LOOK == 0;
+    tally.bias = Default::default();
+}
+
+fn with_bias(value: PixelValue, tally: &mut Tally, samples: u32) -> PixelValue {
+    let bias = tally.bias.map(|sum| sum.as_dvec3() / f64::from(samples));
+    let bias = (tally.probing && bias.iter().all(|b| b.is_finite())).then_some(bias);
+    tally.probing = false;
+    PixelValue { bias, ..value }
 }
 
 /// One sample, well distributed over the pixel's passes.
@@ -49,10 +81,19 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let sequence = Sequence::new(tracer.plan.seed, Stage::Film, item, pass);
         let [dx, dy] = sequence.pair();
         let film = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
+        let probe = is_probe(tracer, x, y);
+        look(tally, probe, pass);
         let sample = tracer.sample(film, sequence, scratch, tally);
-        let mut average = Average::of(tracer.wants);
+        let mut average = Average::of(wants(tracer, probe));
         add_finite(&mut average, &sample, Place { x, y, pass }, tally);
-        add(tile, x, y, average.value(1));
+        let value = average.value(1).map(|value| with_bias(value, tally, 1));
+        let pair = (probe && pass % PAIR == 0).then(|| {
+            let mut aside = Tally::default();
+            let other = tracer.sample(film, sequence.dimension(ANOTHER), scratch, &mut aside);
+            (sample.rest() - other.rest()).as_dvec3()
+        });
+        let pair = pair.filter(|pair| pair.is_finite());
+        add(tile, x, y, value.map(|value| PixelValue { pair, ..value }));
     }
 }
 
