@@ -7,6 +7,7 @@
 use super::bvh::{BoxRay, Bvh, TriangleBvh};
 use super::contact::Contacts;
 use super::media::Medium;
+use super::sight::Sight;
 use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
 use crate::optics::{
     Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Spectrum, Texture, TriangleMesh,
@@ -22,6 +23,10 @@ pub struct World {
     /// Materials by part, for each binding that instances name.
     pub bindings: Vec<Vec<MaterialId>>,
     pub tree: Bvh,
+    /// What a pinhole camera sees where, in scenes of few objects.
+    pub eye: Option<Sight>,
+    /// By emitter, what lies around those without an extent, in scenes of few objects.
+    pub sights: Vec<Option<Sight>>,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub emitters: Vec<Emitter>,
@@ -163,10 +168,16 @@ impl World {
             if except == Some(instance) {
                 return false;
             }
-            let placed = &self.instances[instance as usize];
-            let local = placed.placement.local_ray(ray);
-            self.geometries[placed.geometry as usize].any(&local, t_max)
+            self.hides(instance, ray, t_max)
         })
+    }
+
+    /// Whether an instance lies on the ray at 0 < t < t_max.
+    #[inline]
+    pub(super) fn hides(&self, instance: u32, ray: &Ray, t_max: f64) -> bool {
+        let placed = &self.instances[instance as usize];
+        let local = placed.placement.local_ray(ray);
+        self.geometries[placed.geometry as usize].any(&local, t_max)
     }
 
     pub fn geometry(&self, instance: u32) -> &Geometry {

@@ -36,7 +36,7 @@ impl Tracer<'_> {
                     continue;
                 }
                 tally.rays.shadow += 1;
-                if self.visible(surface, shading, &sample) {
+                if self.visible(i as usize, surface, shading, &sample) {
                     light += value * self.world.transmittance(media, sample.distance);
                 }
             }
@@ -45,8 +45,8 @@ impl Tracer<'_> {
         sum
     }
 
-    /// Whether nothing hides the light.
-    fn visible(&self, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
+    /// Whether nothing hides the light of an emitter, by its index.
+    fn visible(&self, emitter: usize, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
         let lifted = surface.shadow_p != surface.p;
         let above = sample.wi.dot(shading.ng) > 0.0;
         if !above && !lifted {
@@ -67,7 +67,8 @@ impl Tracer<'_> {
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };
-                !self.world.occluded(&ray, 1.0, None)
+                let outside = above && shading.ng.dot(surface.ng) > 0.0;
+                !self.world.hidden_from(emitter, &ray, outside.then_some(surface.instance))
             }
         }
     }

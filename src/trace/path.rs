@@ -115,7 +115,12 @@ impl Tracer<'_> {
     }
 
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
-        let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
+        let hit = if branch.depth == 0 && branch.bounces == 0 {
+            self.world.nearest_from_eye(&branch.ray)
+        } else {
+            self.world.nearest(&branch.ray, f64::INFINITY)
+        };
+        let Some(hit) = hit else {
             return self.deposit(sample, branch, self.leaving(branch));
         };
         let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
