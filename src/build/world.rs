@@ -84,15 +84,6 @@ pub struct Hit {
     pub b: [f32; 3],
 }
 
-/// A double-precision ray rounded to single precision, the origin's rounding bounded: half a unit in
-/// the last place, which below the normal numbers is less than the smallest of them.
-#[inline]
-pub fn box_ray(ray: &Ray) -> BoxRay {
-    let origin = ray.origin.as_vec3();
-    let error = origin.abs() * (0.5 * f32::EPSILON) + Vec3::splat(f32::MIN_POSITIVE);
-    BoxRay::new(origin, error, ray.dir.as_vec3())
-}
-
 impl Geometry {
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
@@ -110,7 +101,7 @@ impl Geometry {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
             Geometry::Mesh(mesh) => {
-                mesh.tree.nearest(&box_ray(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
+                mesh.tree.nearest(&BoxRay::rounded(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
             }
         }
     }
@@ -119,18 +110,19 @@ impl Geometry {
     fn any(&self, local: &Ray, t_max: f64) -> bool {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).is_some(),
-            Geometry::Mesh(mesh) => mesh.tree.any(&box_ray(local), t_max as f32),
+            Geometry::Mesh(mesh) => mesh.tree.any(&BoxRay::rounded(local), t_max as f32),
         }
     }
 }
 
 impl World {
     /// The nearest hit with 0 < t < t_max.
+    #[inline(never)]
     pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
         let mut best = Hit { t: t_max, instance: 0, primitive: 0, b: [0.0; 3] };
         let mut met = false;
         self.tree.nearest(
-            &box_ray(ray),
+            &BoxRay::rounded(ray),
             round_up(t_max),
             #[inline(always)]
             |instance, _| {
@@ -142,7 +134,7 @@ impl World {
                         Hit { t, instance, primitive: face, b: [0.0; 3] }
                     }
                     Geometry::Mesh(mesh) => {
-                        let h = mesh.tree.nearest(&box_ray(&local), round_up(best.t))?;
+                        let h = mesh.tree.nearest(&BoxRay::rounded(&local), round_up(best.t))?;
                         Hit { t: f64::from(h.t), instance, primitive: h.triangle, b: h.b }
                     }
                 };
@@ -163,8 +155,9 @@ impl World {
     }
 
     /// Whether anything but `except` lies on the ray at 0 < t < t_max. The direction may be of any length.
+    #[inline(never)]
     pub fn occluded(&self, ray: &Ray, t_max: f64, except: Option<u32>) -> bool {
-        self.tree.any(&box_ray(ray), round_up(t_max), |instance| {
+        self.tree.any(&BoxRay::rounded(ray), round_up(t_max), |instance| {
             if except == Some(instance) {
                 return false;
             }

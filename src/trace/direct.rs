@@ -85,11 +85,17 @@ fn reflected_share(base: Vec3, shading: &Shading, sample: &LightSample) -> Vec3 
     if shading.ks == Vec3::ZERO {
         return lambert;
     }
+    lambert + highlight(shading, sample, cos)
+}
+
+/// The Phong highlight's part of it.
+#[inline(never)]
+fn highlight(shading: &Shading, sample: &LightSample, cos: f64) -> Vec3 {
     let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
     let cos_alpha = mirror.dot(sample.wi);
     if cos_alpha <= 0.0 {
-        return lambert;
+        return Vec3::ZERO;
     }
     let s = shading.material.shininess;
-    lambert + shading.ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
+    shading.ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
 }

@@ -76,7 +76,9 @@ impl Scratch {
 }
 
 impl Tracer<'_> {
-    /// The sample at `film` (pixels from the top left corner) of a sequence.
+    /// The sample at `film` (pixels from the top left corner) of a sequence. What is not wanted of it may
+    /// stay 0.
+    #[inline]
     pub fn sample(
         &self,
         film: DVec2,
@@ -164,6 +166,7 @@ impl Tracer<'_> {
     }
 
     /// What a ray meets that leaves the scene.
+    #[inline(never)]
     fn leaving(&self, branch: &Branch) -> Vec3 {
         let world = self.world;
         if branch.bounces > 0 {
@@ -278,8 +281,28 @@ impl Tracer<'_> {
         if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        let mut radiance = base * self.world.ambient
+        let radiance = base * self.world.ambient
             + self.direct(base, surface, shading, &branch.media, branch.sequence, tally);
+        if self.caustics.is_none() && self.indirect.is_none() && branch.bounces >= self.plan.bounces {
+            return radiance;
+        }
+        self.gathered(radiance, base, branch, surface, shading, sample, todo, tally)
+    }
+
+    /// Adds to the direct light what photons and diffuse surfaces bring.
+    #[inline(never)]
+    #[expect(clippy::too_many_arguments, reason = "the rest of `shaded`, apart for scenes that do without")]
+    fn gathered(
+        &self,
+        mut radiance: Vec3,
+        base: Vec3,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        sample: &mut Sample,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) -> Vec3 {
         if let Some(caustics) = &self.caustics {
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
@@ -305,6 +328,7 @@ impl Tracer<'_> {
         radiance
     }
 
+    #[inline(never)]
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {
         let world = self.world;
         let specular = shading.km.max(shading.kt);
@@ -320,6 +344,9 @@ impl Tracer<'_> {
     fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3) {
         let radiance = branch.throughput * radiance;
         sample.radiance += radiance;
+        if !self.wants.split {
+            return;
+        }
         match branch.class {
             Class::Direct => sample.direct += radiance,
             Class::Reflection => sample.reflection += radiance,
