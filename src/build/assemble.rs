@@ -7,11 +7,12 @@ use super::lights::Lights;
 use super::materials::{Surfaces, rgb};
 use super::media::Medium;
 use super::objects::Placed;
+use super::sight::Sight;
 use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
-use crate::math::{Aabb, Vec3};
-use crate::optics::{Camera, Cauchy, Material, Spectrum, Weight};
+use crate::math::{Aabb, DVec3, Vec3};
+use crate::optics::{Camera, Cauchy, EmitterKind, Material, Spectrum, Weight};
 use crate::plan::Plan;
 use rayon::prelude::*;
 
@@ -60,10 +61,22 @@ pub(super) fn assemble(
             Some(Medium { instance: i, ior, absorption })
         })
         .collect();
+    let around = |from| Sight::new(from, &placed.instances, &placed.geometries, &bounds);
+    let eye = if camera.lens_radius == 0.0 { around(camera.eye) } else { None };
+    let sights = lights
+        .emitters
+        .iter()
+        .map(|emitter| match emitter.kind {
+            EmitterKind::Point { position, .. } | EmitterKind::Spot { position, .. } => around(position),
+            _ => None,
+        })
+        .collect();
     let world = World {
         origin,
         camera,
         tree: Bvh::build(&bounds),
+        eye,
+        sights,
         geometries: placed.geometries,
         instances: placed.instances,
         bindings: placed.bindings,

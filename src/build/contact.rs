@@ -63,9 +63,9 @@ pub struct Met {
 
 impl World {
     /// The surface at the nearest hit of a ray that comes through `media`.
-    #[inline]
+    #[inline(always)]
     pub fn meet(&self, ray: &Ray, media: &MediaSet, hit: &Hit) -> Met {
-        let surface = self.surface(ray, hit);
+        let surface = self.surface_here(ray, hit);
         let rank = self.instances[hit.instance as usize].rank;
         if rank != 0 {
             let band = band(ray, &surface);
@@ -98,7 +98,7 @@ impl World {
         let start = t - band;
         let probe = Ray { origin: ray.at(start), dir: ray.dir };
         let mut best: Option<Hit> = None;
-        self.tree.nearest(&super::world::box_ray(&probe), round_up(2.0 * band), |other, _| {
+        self.tree.nearest(&super::bvh::BoxRay::rounded(&probe), round_up(2.0 * band), |other, _| {
             if self.instances[other as usize].rank != 0 {
                 return None;
             }

@@ -134,7 +134,7 @@ impl World {
     ) {
         let band = tolerance / dir.dot(ng).abs().max(1e-3);
         let ray = Ray { origin: p - dir * band, dir };
-        let traversal = super::world::box_ray(&ray);
+        let traversal = super::bvh::BoxRay::rounded(&ray);
         self.tree.nearest(&traversal, crate::math::round_up(2.0 * band), |other, _| {
             let rank = self.instances[other as usize].rank;
             if other != instance

@@ -20,6 +20,7 @@ pub mod obj;
 mod objects;
 mod scatter;
 mod shading;
+mod sight;
 mod surface;
 mod world;
 
@@ -32,6 +33,7 @@ pub use examine::examine;
 pub use footprint::Cone;
 pub use media::MediaSet;
 pub use shading::Shading;
+pub use sight::Sight;
 use std::path::PathBuf;
 pub use surface::Surface;
 pub use world::{Geometry, Hit, Instance, Mesh, World};

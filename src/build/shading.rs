@@ -19,7 +19,7 @@ pub struct Shading<'a> {
 }
 
 impl<'a> Shading<'a> {
-    #[inline]
+    #[inline(always)]
     pub fn new(world: &'a World, surface: &Surface, wo: DVec3, cone: &Cone) -> Shading<'a> {
         let material = &world.materials[surface.material.0 as usize];
         let outside = wo.dot(surface.ng) >= 0.0;
@@ -52,7 +52,7 @@ impl<'a> Shading<'a> {
     ) -> Shading<'a> {
         let scale = world.instances[surface.instance as usize].placement.scale();
         let point = texture_point(surface, scale, wo, cone);
-        let at = |weight: &Weight| weight.at(&world.textures, || point);
+        let at = |weight: &Weight| weight.at(&world.textures, &point);
         let ns = bent_normal(world, material, surface, &point);
         let turn = if outside { 1.0 } else { -1.0 };
         Shading {

@@ -30,8 +30,13 @@ pub struct Surface {
 impl World {
     /// The surface at a hit of `ray`, whose direction is of unit length. Coordinates and their
     /// derivatives are left at 0 on shapes whose material asks for none.
-    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+        self.surface_here(ray, hit)
+    }
+
+    /// The same, compiled into its place: a surface is large to hand over.
+    #[inline(always)]
+    pub(super) fn surface_here(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let placement = &instance.placement;
         let binding = &self.bindings[instance.binding as usize];

@@ -7,6 +7,7 @@
 use super::bvh::{BoxRay, Bvh, TriangleBvh};
 use super::contact::Contacts;
 use super::media::Medium;
+use super::sight::Sight;
 use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
 use crate::optics::{
     Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Spectrum, Texture, TriangleMesh,
@@ -22,6 +23,10 @@ pub struct World {
     /// Materials by part, for each binding that instances name.
     pub bindings: Vec<Vec<MaterialId>>,
     pub tree: Bvh,
+    /// What a pinhole camera sees where, in scenes of few objects.
+    pub eye: Option<Sight>,
+    /// By emitter, what lies around those without an extent, in scenes of few objects.
+    pub sights: Vec<Option<Sight>>,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub emitters: Vec<Emitter>,
@@ -79,15 +84,6 @@ pub struct Hit {
     pub b: [f32; 3],
 }
 
-/// A double-precision ray rounded to single precision, the origin's rounding bounded: half a unit in
-/// the last place, which below the normal numbers is less than the smallest of them.
-#[inline]
-pub fn box_ray(ray: &Ray) -> BoxRay {
-    let origin = ray.origin.as_vec3();
-    let error = origin.abs() * (0.5 * f32::EPSILON) + Vec3::splat(f32::MIN_POSITIVE);
-    BoxRay::new(origin, error, ray.dir.as_vec3())
-}
-
 impl Geometry {
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
@@ -105,7 +101,7 @@ impl Geometry {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
             Geometry::Mesh(mesh) => {
-                mesh.tree.nearest(&box_ray(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
+                mesh.tree.nearest(&BoxRay::rounded(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
             }
         }
     }
@@ -114,18 +110,19 @@ impl Geometry {
     fn any(&self, local: &Ray, t_max: f64) -> bool {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).is_some(),
-            Geometry::Mesh(mesh) => mesh.tree.any(&box_ray(local), t_max as f32),
+            Geometry::Mesh(mesh) => mesh.tree.any(&BoxRay::rounded(local), t_max as f32),
         }
     }
 }
 
 impl World {
     /// The nearest hit with 0 < t < t_max.
+    #[inline(never)]
     pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
         let mut best = Hit { t: t_max, instance: 0, primitive: 0, b: [0.0; 3] };
         let mut met = false;
         self.tree.nearest(
-            &box_ray(ray),
+            &BoxRay::rounded(ray),
             round_up(t_max),
             #[inline(always)]
             |instance, _| {
@@ -137,7 +134,7 @@ impl World {
                         Hit { t, instance, primitive: face, b: [0.0; 3] }
                     }
                     Geometry::Mesh(mesh) => {
-                        let h = mesh.tree.nearest(&box_ray(&local), round_up(best.t))?;
+                        let h = mesh.tree.nearest(&BoxRay::rounded(&local), round_up(best.t))?;
                         Hit { t: f64::from(h.t), instance, primitive: h.triangle, b: h.b }
                     }
                 };
@@ -158,15 +155,22 @@ impl World {
     }
 
     /// Whether anything but `except` lies on the ray at 0 < t < t_max. The direction may be of any length.
+    #[inline(never)]
     pub fn occluded(&self, ray: &Ray, t_max: f64, except: Option<u32>) -> bool {
-        self.tree.any(&box_ray(ray), round_up(t_max), |instance| {
+        self.tree.any(&BoxRay::rounded(ray), round_up(t_max), |instance| {
             if except == Some(instance) {
                 return false;
             }
-            let placed = &self.instances[instance as usize];
-            let local = placed.placement.local_ray(ray);
-            self.geometries[placed.geometry as usize].any(&local, t_max)
+            self.hides(instance, ray, t_max)
         })
+    }
+
+    /// Whether an instance lies on the ray at 0 < t < t_max.
+    #[inline]
+    pub(super) fn hides(&self, instance: u32, ray: &Ray, t_max: f64) -> bool {
+        let placed = &self.instances[instance as usize];
+        let local = placed.placement.local_ray(ray);
+        self.geometries[placed.geometry as usize].any(&local, t_max)
     }
 
     pub fn geometry(&self, instance: u32) -> &Geometry {

@@ -26,10 +26,10 @@ impl Weight {
     }
 
     #[inline]
-    pub fn at(&self, textures: &[Texture], point: impl FnOnce() -> TexturePoint) -> Vec3 {
+    pub fn at(&self, textures: &[Texture], point: &TexturePoint) -> Vec3 {
         match *self {
             Weight::Constant(value) => value,
-            Weight::Texture(id, factor) => textures[id.0 as usize].color(&point()) * factor,
+            Weight::Texture(id, factor) => textures[id.0 as usize].color(point) * factor,
         }
     }
 

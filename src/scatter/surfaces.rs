@@ -145,7 +145,7 @@ impl Source {
         dir: DVec3,
         extent: f64,
     ) -> Option<Start> {
-        let radiance = material.emission.at(&world.textures, || point.texture).as_dvec3();
+        let radiance = material.emission.at(&world.textures, &point.texture).as_dvec3();
         let power = radiance * extent;
         if power == DVec3::ZERO {
             return None;

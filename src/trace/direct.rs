@@ -50,7 +50,7 @@ impl Tracer<'_> {
                     continue;
                 }
                 tally.rays.shadow += u64::from(self.plan.shadows);
-                if self.visible(surface, shading, &sample) {
+                if self.visible(i as usize, surface, shading, &sample) {
                     light += value * self.world.transmittance(&branch.media, sample.distance);
                 }
             }
@@ -59,8 +59,8 @@ impl Tracer<'_> {
         sum
     }
 
-    /// Whether nothing hides the light.
-    fn visible(&self, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
+    /// Whether nothing hides the light of an emitter, by its index.
+    fn visible(&self, emitter: usize, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
         let lifted = surface.shadow_p != surface.p;
         let above = sample.wi.dot(shading.ng) > 0.0;
         if !above && !lifted {
@@ -84,7 +84,8 @@ impl Tracer<'_> {
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };
-                !self.world.occluded(&ray, 1.0, None)
+                let outside = above && shading.ng.dot(surface.ng) > 0.0;
+                !self.world.hidden_from(emitter, &ray, outside.then_some(surface.instance))
             }
         }
     }
@@ -101,11 +102,17 @@ fn reflected_share([base, ks]: [Vec3; 2], shading: &Shading, sample: &LightSampl
     if ks == Vec3::ZERO {
         return lambert;
     }
+    lambert + highlight(ks, shading, sample, cos)
+}
+
+/// The Phong highlight's part of it.
+#[inline(never)]
+fn highlight(ks: Vec3, shading: &Shading, sample: &LightSample, cos: f64) -> Vec3 {
     let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
     let cos_alpha = mirror.dot(sample.wi);
     if cos_alpha <= 0.0 {
-        return lambert;
+        return Vec3::ZERO;
     }
     let s = shading.material.shininess;
-    lambert + ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
+    ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32
 }

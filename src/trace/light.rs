@@ -34,6 +34,7 @@ pub enum Arrival {
 }
 
 impl Tracer<'_> {
+    #[inline]
     pub(super) fn light_sample(
         &self,
         emitter: &Emitter,
@@ -63,6 +64,22 @@ impl Tracer<'_> {
                 let (wi, value) = (*to_light, *irradiance);
                 Some(LightSample { wi, value, distance: f64::INFINITY, arrival: Arrival::Infinite })
             }
+            _ => self.extended_sample(emitter, surface, shading, u),
+        }
+    }
+
+    /// The same of an emitter with an extent: apart, so that points need not carry its arithmetic along.
+    #[inline(never)]
+    fn extended_sample(
+        &self,
+        emitter: &Emitter,
+        surface: &Surface,
+        shading: &Shading,
+        u: impl FnOnce() -> [f64; 2],
+    ) -> Option<LightSample> {
+        let p = surface.p;
+        match &emitter.kind {
+            EmitterKind::Point { .. } | EmitterKind::Spot { .. } | EmitterKind::Directional { .. } => None,
             // From where the shadow ray starts: a lamp's own surface must not be met from its other side.
             EmitterKind::Shape { instance } => {
                 self.shape_sample(*instance, p + shading.ng * surface.p_error, shading, u())
@@ -213,8 +230,8 @@ impl Tracer<'_> {
         if !material.emits_back && surface.ng.dot(ray.dir) >= 0.0 {
             return Vec3::ZERO;
         }
-        let point = || TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
-        material.emission.at(&world.textures, point)
+        let point = TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
+        material.emission.at(&world.textures, &point)
     }
 }
 

@@ -90,7 +90,9 @@ impl Scratch {
 }
 
 impl Tracer<'_> {
-    /// The sample at `film` (pixels from the top left corner) of a sequence.
+    /// The sample at `film` (pixels from the top left corner) of a sequence. What is not wanted of it may
+    /// stay 0.
+    #[inline]
     pub fn sample(
         &self,
         film: DVec2,
@@ -141,7 +143,12 @@ impl Tracer<'_> {
 
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         tally.watch.enter(branch.part());
-        let Some(hit) = self.world.nearest(&branch.ray, f64::INFINITY) else {
+        let hit = if branch.depth == 0 && branch.bounces == 0 {
+            self.world.nearest_from_eye(&branch.ray)
+        } else {
+            self.world.nearest(&branch.ray, f64::INFINITY)
+        };
+        let Some(hit) = hit else {
             return self.deposit(sample, branch, self.leaving(branch));
         };
         let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
@@ -187,6 +194,7 @@ impl Tracer<'_> {
     }
 
     /// What a ray meets that leaves the scene.
+    #[inline(never)]
     fn leaving(&self, branch: &Branch) -> Vec3 {
         let world = self.world;
         if branch.bounces > 0 {
@@ -313,7 +321,31 @@ impl Tracer<'_> {
         let carried = self.carried(branch);
         let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Vec3::ZERO };
         tally.watch.enter(Part::Direct);
-        let mut radiance = ambient + self.direct(base, branch, surface, shading, tally);
+        let radiance = ambient + self.direct(base, branch, surface, shading, tally);
+        if self.caustics.is_none() && self.indirect.is_none() && branch.bounces >= self.plan.bounces {
+            tally.watch.enter(branch.part());
+            return radiance;
+        }
+        let radiance = self.gathered(radiance, carried, base, branch, surface, shading, sample, todo, tally);
+        tally.watch.enter(branch.part());
+        radiance
+    }
+
+    /// Adds to the direct light what photons and diffuse surfaces bring.
+    #[inline(never)]
+    #[expect(clippy::too_many_arguments, reason = "the rest of `shaded`, apart for scenes that do without")]
+    fn gathered(
+        &self,
+        mut radiance: Vec3,
+        carried: Carriers,
+        base: Vec3,
+        branch: &Branch,
+        surface: &Surface,
+        shading: &Shading,
+        sample: &mut Sample,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) -> Vec3 {
         if let Some(caustics) = &self.caustics
             && carried.any(Carriers::CAUSTICS)
         {
@@ -331,7 +363,6 @@ impl Tracer<'_> {
             }
         }
         if !carried.any(Carriers::INDIRECT) {
-            tally.watch.enter(branch.part());
             return radiance;
         }
         if let Some(indirect) = &self.indirect {
@@ -341,7 +372,6 @@ impl Tracer<'_> {
             tally.bias[1] += branch.throughput * gathered.bias;
             radiance += gathered.radiance;
         }
-        tally.watch.enter(branch.part());
         if self.indirect.is_none()
             && branch.bounces < self.plan.bounces
             && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
@@ -351,6 +381,7 @@ impl Tracer<'_> {
         radiance
     }
 
+    #[inline(never)]
     fn first_hit(&self, surface: &Surface, shading: &Shading) -> FirstHit {
         let world = self.world;
         let specular = shading.km.max(shading.kt);
@@ -366,13 +397,16 @@ impl Tracer<'_> {
     fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3) {
         let radiance = branch.throughput * radiance;
         sample.radiance += radiance;
+        if branch.bounces > 0 {
+            sample.indirect += radiance;
+        }
+        if !self.wants.split {
+            return;
+        }
         match branch.class {
             Class::Direct => sample.direct += radiance,
             Class::Reflection => sample.reflection += radiance,
             Class::Refraction => sample.refraction += radiance,
-        }
-        if branch.bounces > 0 {
-            sample.indirect += radiance;
         }
     }
 }

@@ -8,7 +8,8 @@
 
 use super::node::Node;
 use crate::math::lanes::Lanes;
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Ray, Vec3};
+use glam::Vec3A;
 
 /// Exits and limits are scaled by 1 + 16u (u = 2⁻²⁴), above Ize's 1 + 2γ₃ ≈ 1 + 6u; the rest
 /// covers a direction that was itself rounded, and the rounding of a hit's distance.
@@ -25,11 +26,11 @@ pub(super) const PROJECTION_ERROR: f32 = 6.0 * f32::EPSILON;
 /// object space of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
-    pub(super) origin: Vec3,
-    origin_error: Vec3,
-    pub(super) dir: Vec3,
+    pub(super) origin: Vec3A,
+    origin_error: Vec3A,
+    pub(super) dir: Vec3A,
     /// Reciprocal of `dir`, infinite where `dir` is ±0.
-    inv: Vec3,
+    inv: Vec3A,
 }
 
 impl BoxRay {
@@ -37,6 +38,20 @@ impl BoxRay {
     /// `origin` is exact). A ray with a non-finite or zero direction meets nothing.
     #[inline]
     pub fn new(origin: Vec3, origin_error: Vec3, dir: Vec3) -> BoxRay {
+        BoxRay::padded(origin.into(), origin_error.into(), dir.into())
+    }
+
+    /// A double-precision ray rounded to single precision, the origin's rounding bounded: half a unit in
+    /// the last place, which below the normal numbers is less than the smallest of them.
+    #[inline]
+    pub fn rounded(ray: &Ray) -> BoxRay {
+        let origin = ray.origin.as_vec3a();
+        let error = origin.abs() * (0.5 * f32::EPSILON) + Vec3A::splat(f32::MIN_POSITIVE);
+        BoxRay::padded(origin, error, ray.dir.as_vec3a())
+    }
+
+    #[inline]
+    fn padded(origin: Vec3A, origin_error: Vec3A, dir: Vec3A) -> BoxRay {
         BoxRay { origin, origin_error, dir, inv: dir.recip() }
     }
 
@@ -55,13 +70,14 @@ impl BoxRay {
     pub(super) fn is_valid(&self) -> bool {
         // 0 times what is not finite is NaN. The smallest reciprocal is that of the largest component.
         let zero = self.origin * 0.0 + self.dir * 0.0;
-        zero.x + zero.y + zero.z == 0.0 && self.inv.abs().min_element() < f32::INFINITY
+        zero.cmpeq(Vec3A::ZERO).all() && self.inv.abs().min_element() < f32::INFINITY
     }
 
     /// The largest distance along an axis from the origin to a point of `bounds`.
     #[inline]
     pub(super) fn reach(&self, bounds: &Aabb) -> f32 {
-        (bounds.max - self.origin).abs().max((bounds.min - self.origin).abs()).max_element()
+        let (min, max) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        (max - self.origin).abs().max((min - self.origin).abs()).max_element()
     }
 }
 
@@ -80,15 +96,23 @@ pub(super) struct Slabs<L: Lanes> {
 impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn new(lanes: L, ray: &BoxRay, bounds: &Aabb) -> Self {
-        let pad = ray.origin_error + Vec3::splat(PROJECTION_ERROR * ray.reach(bounds));
-        let (x, y, z) = (Slab::new(ray, pad, 0), Slab::new(ray, pad, 1), Slab::new(ray, pad, 2));
+        let pad = ray.origin_error + Vec3A::splat(PROJECTION_ERROR * ray.reach(bounds));
+        // A near plane's origin is moved along the ray, a far plane's against it.
+        let pad = pad.copysign(ray.dir);
+        let (near_origin, far_origin) = (ray.origin + pad, ray.origin - pad);
+        // Kept finite for near planes: that can only bring an entry nearer.
+        let near_inv = ray.inv.clamp(Vec3A::splat(-f32::MAX), Vec3A::splat(f32::MAX));
+        let far_inv = ray.inv * OUTWARDS;
+        let backwards = ray.dir.is_negative_bitmask() as usize;
+        let near_row = |k: usize| k + 3 * (backwards >> k & 1);
+        let splat = |v: Vec3A| [lanes.splat(v.x), lanes.splat(v.y), lanes.splat(v.z)];
         Slabs {
-            near_row: [x.near_row, y.near_row, z.near_row],
-            far_row: [x.far_row, y.far_row, z.far_row],
-            near_origin: [lanes.splat(x.near_origin), lanes.splat(y.near_origin), lanes.splat(z.near_origin)],
-            far_origin: [lanes.splat(x.far_origin), lanes.splat(y.far_origin), lanes.splat(z.far_origin)],
-            near_inv: [lanes.splat(x.near_inv), lanes.splat(y.near_inv), lanes.splat(z.near_inv)],
-            far_inv: [lanes.splat(x.far_inv), lanes.splat(y.far_inv), lanes.splat(z.far_inv)],
+            near_row: [near_row(0), near_row(1), near_row(2)],
+            far_row: [3 - near_row(0), 5 - near_row(1), 7 - near_row(2)],
+            near_origin: splat(near_origin),
+            far_origin: splat(far_origin),
+            near_inv: splat(near_inv),
+            far_inv: splat(far_inv),
             zero: lanes.splat(0.0),
         }
     }
@@ -128,30 +152,5 @@ impl<L: Lanes> Slabs<L> {
             l.mul(l.sub(l.load(node.row(y)), o[1]), inv[1]),
             l.mul(l.sub(l.load(node.row(z)), o[2]), inv[2]),
         ]
-    }
-}
-
-/// The constants of one axis.
-struct Slab {
-    near_row: usize,
-    far_row: usize,
-    near_origin: f32,
-    far_origin: f32,
-    near_inv: f32,
-    far_inv: f32,
-}
-
-impl Slab {
-    /// A near plane's origin is moved along the ray, a far plane's against it. The reciprocal for
-    /// near planes is kept finite: that can only bring an entry nearer.
-    #[inline(always)]
-    fn new(ray: &BoxRay, pad: Vec3, k: usize) -> Slab {
-        let (below, above) = (ray.origin[k] - pad[k], ray.origin[k] + pad[k]);
-        let (near_inv, far_inv) = (ray.inv[k].clamp(-f32::MAX, f32::MAX), ray.inv[k] * OUTWARDS);
-        if ray.dir[k].is_sign_negative() {
-            Slab { near_row: 3 + k, far_row: k, near_origin: below, far_origin: above, near_inv, far_inv }
-        } else {
-            Slab { near_row: k, far_row: 3 + k, near_origin: above, far_origin: below, near_inv, far_inv }
-        }
     }
 }

@@ -35,6 +35,11 @@ impl Cone {
         Cone { radius, top_radius, height, caps }
     }
 
+    /// Whether it has its caps, so that it bounds a solid.
+    pub fn capped(&self) -> bool {
+        self.caps
+    }
+
     /// The ray and its parameter shifted to the point nearest to the centre.
     fn shifted(&self, ray: &Ray) -> Option<(Ray, f64)> {
         let from_center = ray.origin - DVec3::new(0.0, 0.5 * self.height, 0.0);

@@ -1,0 +1,220 @@
+//! What can lie in a direction from a fixed point, for scenes of a handful of objects: which of them a
+//! ray from a pinhole's eye may meet, and which may hide a lamp's point, without a test of their bounds.
+//!
+//! The directions are a cube around the point, each of its faces divided into cells; a cell holds the set of
+//! the objects whose bounds reach into its pyramid. For eyes this is Weghorst, Hooper & Greenberg 1984
+//! (Improved Computational Methods for Ray Tracing, TOG 3(1)), for lights Haines & Greenberg 1986 (The
+//! Light Buffer, CG&A 6(9)).
+
+use super::world::{Geometry, Hit, Instance, World};
+use crate::math::{Aabb, DVec3, Ray};
+use crate::optics::Shape;
+
+/// Objects at most: bits of a cell.
+const FEW: usize = 16;
+
+/// Cells along an edge of the cube.
+const SIDE: usize = 64;
+
+/// The objects around a point, by direction.
+#[derive(Clone, Debug)]
+pub struct Sight {
+    /// The nearest bounds first; bit i of a cell stands for the i-th.
+    instances: Vec<u32>,
+    /// By instance of the world: its bit if it is convex, so that a ray that leaves its outer side cannot
+    /// meet it again.
+    convex: Vec<u16>,
+    /// Rows of columns of faces −x, +x, −y, +y, −z, +z.
+    cells: Vec<u16>,
+}
+
+/// Bounds seen from the point along one face's axis, and across it.
+struct Seen {
+    along: [f64; 2],
+    across: [[f64; 2]; 2],
+}
+
+impl Sight {
+    /// From the point `from`; `bounds` are the instances'. `None` where they are too many.
+    pub(super) fn new(
+        from: DVec3,
+        instances: &[Instance],
+        geometries: &[Geometry],
+        bounds: &[Aabb],
+    ) -> Option<Sight> {
+        let mut near: Vec<(f64, u32)> = (0u32..)
+            .zip(bounds)
+            .filter(|(_, b)| b.min.cmple(b.max).all())
+            .map(|(i, b)| (from.clamp(b.min.as_dvec3(), b.max.as_dvec3()).distance(from), i))
+            .collect();
+        if near.len() > FEW || !from.is_finite() {
+            return None;
+        }
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut sight = Sight {
+            instances: near.iter().map(|&(_, i)| i).collect(),
+            convex: vec![0; instances.len()],
+            cells: vec![0; 6 * SIDE * SIDE],
+        };
+        for (bit, &(_, i)) in near.iter().enumerate() {
+            sight.enter(from, &bounds[i as usize], 1 << bit);
+            if convex(&geometries[instances[i as usize].geometry as usize]) {
+                sight.convex[i as usize] = 1 << bit;
+            }
+        }
+        Some(sight)
+    }
+
+    /// Sets the bit in every cell that the bounds reach into, with room for what traversal in single
+    /// precision makes of a ray.
+    fn enter(&mut self, from: DVec3, bounds: &Aabb, bit: u16) {
+        let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let room = (from.abs() + min.abs().max(max.abs())).max_element() * 16.0 * f64::from(f32::EPSILON);
+        let (min, max) = (min - from - room, max - from + room);
+        for face in 0..6 {
+            let axis = face / 2;
+            let along = if face % 2 == 0 { [-max[axis], -min[axis]] } else { [min[axis], max[axis]] };
+            if along[1] <= 0.0 {
+                continue;
+            }
+            let across = [1, 2].map(|k| [min[(axis + k) % 3], max[(axis + k) % 3]]);
+            let seen = Seen { along: [along[0].max(0.0), along[1]], across };
+            let columns: [bool; SIDE] = std::array::from_fn(|i| seen.reaches(0, i));
+            for row in (0..SIDE).filter(|&row| seen.reaches(1, row)) {
+                let start = (face * SIDE + row) * SIDE;
+                for (cell, _) in self.cells[start..start + SIDE].iter_mut().zip(columns).filter(|c| c.1) {
+                    *cell |= bit;
+                }
+            }
+        }
+    }
+
+    /// The objects that may lie in a direction of any length.
+    #[inline]
+    fn towards(&self, dir: DVec3) -> u16 {
+        let size = dir.abs();
+        let (axis, across) = if size.x >= size.y && size.x >= size.z {
+            (0, [dir.y, dir.z])
+        } else if size.y >= size.z {
+            (1, [dir.z, dir.x])
+        } else {
+            (2, [dir.x, dir.y])
+        };
+        let face = 2 * axis + usize::from(dir[axis] > 0.0);
+        let scale = 0.5 * SIDE as f64 / size[axis];
+        let cell = |x: f64| ((x * scale + 0.5 * SIDE as f64) as i32).clamp(0, SIDE as i32 - 1) as usize;
+        self.cells[(face * SIDE + cell(across[1])) * SIDE + cell(across[0])]
+    }
+}
+
+impl Seen {
+    /// Whether the bounds reach between the two planes through the point that bound a column (0) or row (1).
+    fn reaches(&self, way: usize, i: usize) -> bool {
+        // Wider than the rounding of a lookup.
+        let at = |i: f64| 2.0 * i / SIDE as f64 - 1.0;
+        let (low, high) = (at(i as f64 - 1e-6), at(i as f64 + 1.0 + 1e-6));
+        let [near, far] = self.along;
+        let [from, to] = self.across[way];
+        to >= (low * near).min(low * far) && from <= (high * near).max(high * far)
+    }
+}
+
+/// Whether a ray that leaves the outer side (of a flat shape: either side) cannot meet it again.
+fn convex(geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Shape(Shape::Cone(cone)) => cone.capped(),
+        Geometry::Shape(_) => true,
+        Geometry::Mesh(_) => false,
+    }
+}
+
+impl World {
+    /// The nearest hit of a ray that starts at the camera's eye.
+    #[inline]
+    pub fn nearest_from_eye(&self, ray: &Ray) -> Option<Hit> {
+        let Some(sight) = &self.eye else { return self.nearest(ray, f64::INFINITY) };
+        let mut left = sight.towards(ray.dir);
+        let mut best: Option<Hit> = None;
+        while left != 0 {
+            let instance = sight.instances[left.trailing_zeros() as usize];
+            left &= left - 1;
+            let t_max = best.map_or(f64::INFINITY, |hit| hit.t);
+            best = self.nearest_of(instance, ray, t_max).or(best);
+        }
+        best
+    }
+
+    /// Whether anything lies on the way of a ray at 0 < t < 1 that ends in the position of an emitter
+    /// without extent, by its index. `leaving`: the instance whose outer side (of a flat shape: either side)
+    /// the ray leaves.
+    #[inline]
+    pub fn hidden_from(&self, emitter: usize, ray: &Ray, leaving: Option<u32>) -> bool {
+        let Some(Some(sight)) = self.sights.get(emitter) else { return self.occluded(ray, 1.0, None) };
+        let mut left = sight.towards(-ray.dir);
+        if let Some(instance) = leaving {
+            left &= !sight.convex[instance as usize];
+        }
+        while left != 0 {
+            let instance = sight.instances[left.trailing_zeros() as usize];
+            left &= left - 1;
+            if self.hides(instance, ray, 1.0) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Counter, Stage};
+    use crate::math::Vec3;
+
+    /// Of boxes of all sizes, near and far and around the point, every one that a line from the point meets
+    /// is among those of its direction.
+    #[test]
+    fn everything_in_a_direction_is_listed_there() {
+        let mut random = Counter::new(7, Stage::Test, 0);
+        let mut vector = |scale: f64| {
+            DVec3::from([(); 3].map(|()| (random.value() - 0.5) * scale))
+        };
+        for round in 0..200 {
+            let scale = [1e-3, 1.0, 1e3][round % 3];
+            let from = vector(4.0 * scale);
+            let boxes: Vec<Aabb> = (0..FEW)
+                .map(|i| {
+                    let (middle, half) = (vector(4.0 * scale), vector([0.1, 1.0, 4.0][i % 3] * scale).abs());
+                    Aabb::from_f64(middle - half, middle + half)
+                })
+                .collect();
+            let mut sight = Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
+            for (bit, bounds) in boxes.iter().enumerate() {
+                sight.enter(from, bounds, 1 << bit);
+            }
+            let mut alone = 0;
+            for _ in 0..500 {
+                // A point of a box, or its corner.
+                let bit = (vector(1.0).x.abs() * 2.0 * FEW as f64) as usize;
+                let (min, max) = (boxes[bit].min.as_dvec3(), boxes[bit].max.as_dvec3());
+                let share = (vector(3.0) + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+                let mask = sight.towards(min + (max - min) * share - from);
+                assert!(mask >> bit & 1 == 1, "round {round}, box {bit}");
+                alone += u32::from(mask.count_ones() < 8);
+            }
+            assert!(alone > 0, "every direction lists nearly everything");
+        }
+    }
+
+    #[test]
+    fn a_direction_without_a_length_is_looked_up() {
+        let sight = Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
+        for dir in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
+            assert_eq!(sight.towards(dir), 0);
+        }
+        let far = Aabb { min: Vec3::splat(1.0), max: Vec3::splat(2.0) };
+        let mut sight = sight;
+        sight.enter(DVec3::ZERO, &far, 1);
+        assert_eq!((sight.towards(DVec3::ONE), sight.towards(DVec3::NEG_ONE)), (1, 0));
+    }
+}
