@@ -1,6 +1,9 @@
 //! The film: tiles become the layers of an image.
 
+mod accuracy;
+
 use crate::trace::{Layer, Layers, Tile};
+pub use accuracy::{Accuracy, BIAS_RATE, Part};
 
 /// All tiles of an image.
 #[derive(Clone, Debug)]
@@ -46,6 +49,21 @@ impl Film {
     /// Samples over all pixels and passes.
     pub fn samples(&self) -> u64 {
         self.tiles.iter().map(Tile::samples).sum()
+    }
+
+    /// Rec. 709 luminance, the mean over all pixels.
+    pub fn mean_luminance(&self) -> f64 {
+        let luminance = crate::math::DVec3::new(0.2126, 0.7152, 0.0722);
+        let of = |tile: &Tile| -> f64 {
+            tile.pixels().map(|(x, y)| tile.value(x, y, Layer::Radiance, 1.0).dot(luminance)).sum()
+        };
+        let sum: f64 = self.tiles.iter().map(of).sum();
+        sum / (f64::from(self.width) * f64::from(self.height)).max(1.0)
+    }
+
+    /// How far it still is from the truth, its mean luminance being known; `None` where that is not.
+    pub fn accuracy(&self, luminance: f64) -> Option<Accuracy> {
+        Accuracy::of(self.tiles.iter().flat_map(Tile::probes), luminance)
     }
 
     pub fn memory_bytes(&self) -> usize {

@@ -2,28 +2,30 @@
 
 mod clock;
 mod image;
+mod next;
 mod options;
+mod passes;
 mod photons;
 mod planned;
 mod prepare;
 mod prices;
 mod stats;
+mod stop;
 
 use crate::description::Loaded;
-use crate::film::Film;
 use crate::math::Rare;
 use crate::output;
 use crate::plan::Plan;
 use crate::survey::Survey;
-use crate::trace::{self, Tally};
+use crate::trace::Tally;
 use clock::Clock;
+pub use next::{Factor, Next};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
-use photons::PassMaps;
+use passes::Traced;
 pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};
 pub use planned::Planned;
 use prepare::Prepared;
 pub use prices::Priced;
-use rayon::prelude::*;
 pub use stats::{Memory, RareEvent, SceneSize, StageTime, Stats};
 use std::path::PathBuf;
 
@@ -39,12 +41,6 @@ pub struct Rendered {
     /// Every asset file that was read.
     pub files: Vec<PathBuf>,
 }
-
-/// One sample in so many is timed by its parts.
-const TIMED: u32 = 61;
-
-/// Passes that a tile works through before progress is reported.
-const BATCH: u32 = 8;
 
 /// Renders a checked scene.
 pub fn render(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
@@ -78,64 +74,34 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
     let planned = ready.planned(&first, options, progress, &mut clock);
     let before = prices::first_photons(&first, &clock);
-    let traced = trace_passes(&ready, first, options, progress);
+    let traced = passes::trace(&ready, first, options, &planned, progress);
     clock.lap("trace");
 
     let Prepared { plan, world, mut warnings, files, .. } = ready;
-    let Traced { film, tally, photons } = traced;
+    let Traced { film, tally, photons, passes } = traced;
     warnings.extend(health_warnings(&tally, &plan));
     warnings.extend(photons.warnings(plan.max_depth));
     if options.strict {
         refuse_excesses(&tally)?;
     }
     let image = image::assemble(&film, options);
-    let provenance = image::provenance(loaded, &plan, &world, &tally, &film);
+    let accuracy = film.accuracy(image::mean_luminance(&image));
+    let provenance = image::provenance(loaded, &plan, &world, &tally, &film, passes, accuracy.as_ref());
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);
-    let stats = Stats::new(clock.stages, &tally, &film, &world, photons, prices, &planned);
+    let stats = Stats::new(
+        clock.stages,
+        &tally,
+        &film,
+        &world,
+        photons,
+        prices,
+        &planned,
+        passes,
+        accuracy,
+        next::not_seen(&plan),
+    );
     Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files })
-}
-
-/// What tracing leaves.
-struct Traced {
-    film: Film,
-    tally: Tally,
-    photons: AllPhotons,
-}
-
-fn trace_passes(ready: &Prepared, first: PassMaps, options: &Options, progress: &dyn Progress) -> Traced {
-    let Prepared { plan, world, wants, stages, .. } = ready;
-    let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(wants));
-    let mut tally = Tally::default();
-    let mut photons = stages.stats(world);
-    progress.start("trace", film.tiles.len() as u64 * u64::from(plan.passes), "tiles");
-    let last = plan.first_pass + plan.passes;
-    let batch = if stages.one_map() { BATCH } else { 1 };
-    let mut maps = first;
-    for first in (plan.first_pass..last).step_by(batch as usize) {
-        let passes = first..(first + batch).min(last);
-        if batch == 1 || first == plan.first_pass {
-            stages.count(&mut photons, &mut tally.health, &maps);
-        }
-        let tracer = ready.tracer(&maps);
-        let trace = || -> Vec<Tally> {
-            film.tiles
-                .par_iter_mut()
-                .map(|tile| {
-                    let tally = trace::passes(&tracer, passes.clone(), tile, TIMED);
-                    progress.advance(u64::from(passes.end - passes.start));
-                    tally
-                })
-                .collect()
-        };
-        // The next pass's photons are scattered beside this pass's tiles.
-        let another = batch == 1 && passes.end < last;
-        let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(world, passes.end)));
-        tallies.iter().for_each(|t| tally.add(t));
-        maps = next.unwrap_or(maps);
-    }
-    progress.finish();
-    Traced { film, tally, photons }
 }
 
 fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {

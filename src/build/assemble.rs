@@ -11,7 +11,7 @@ use super::sight::Sight;
 use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
-use crate::math::{Aabb, DVec3, Vec3};
+use crate::math::{Aabb, Vec3};
 use crate::optics::{Camera, Cauchy, EmitterKind, Material, Spectrum, Weight};
 use crate::plan::Plan;
 use rayon::prelude::*;

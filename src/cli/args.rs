@@ -2,7 +2,7 @@
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use terrarium::plan::{Effect, Overrides};
+use terrarium::plan::{Effect, Overrides, Until};
 use terrarium::render::{Aov, Options};
 
 const EXAMPLES: &str = "\
@@ -126,6 +126,13 @@ pub struct Work {
     /// averaged with the others later; the scene's if not given
     #[arg(long, value_name = "N or A..B", value_parser = passes)]
     pub passes: Option<std::ops::Range<u32>>,
+    /// End after this wall time of the whole process: `90`, `60s`, `5min`, `1h`; the scene's if not given
+    #[arg(long, value_name = "TIME", value_parser = seconds)]
+    pub time: Option<f64>,
+    /// End when the relative RMS error of the picture is this or less: `2%`, `0.02`; the scene's if not
+    /// given. Whichever of passes, time and error comes first ends the render
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub error: Option<f64>,
     /// Seed of every random value; the scene's if not given
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -153,6 +160,7 @@ impl Work {
             threads: self.threads.map(usize::from),
             passes: self.passes.clone(),
             seed: self.seed,
+            until: Until { seconds: self.time, error: self.error },
             overrides: self.effects.overrides(),
             aovs,
             ..Options::default()
@@ -195,6 +203,29 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)
+}
+
+/// Seconds from a number with a unit.
+fn seconds(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
+    let found = units.iter().find_map(|(unit, factor)| Some((text.strip_suffix(unit)?, *factor)));
+    let (number, factor) = found.unwrap_or((text, 1.0));
+    let value =
+        number.trim().parse::<f64>().map_err(|_| format!("`{text}` is no time: 90, 60s, 5min, 1h"))?;
+    positive(value * factor)
+}
+
+/// A share, or so many per cent.
+fn share(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, factor) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let value = number.trim().parse::<f64>().map_err(|_| format!("`{text}` is no share: 2%, 0.02"))?;
+    positive(value * factor)
+}
+
+fn positive(value: f64) -> Result<f64, String> {
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("{value} is not above 0")) }
 }
 
 /// Overrides of the effects that the scene calls for.

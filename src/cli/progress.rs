@@ -172,6 +172,16 @@ impl Progress for Reporter {
         }
     }
 
+    fn error(&self, error: f64, target: f64) {
+        let percent = |share: f64| (1e4 * share).round() / 100.0;
+        if self.form == Form::Json {
+            let line = serde_json::json!({ "v": 1, "note": "error", "error": error, "target": target });
+            self.terminal.say(&line.to_string());
+        } else {
+            self.note(&format!("error: {} %, to be {} %", percent(error), percent(target)));
+        }
+    }
+
     fn note(&self, message: &str) {
         match (self.form, self.stage().as_ref().and_then(|stage| stage.bar.clone())) {
             (Form::None, _) => {}

@@ -7,7 +7,7 @@
 use super::args::RenderArgs;
 use super::check::{files, load_and_report, refused, set_threads};
 use super::exit::{Failure, USAGE};
-use super::progress::Reporter;
+use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
@@ -16,7 +16,7 @@ use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
 use terrarium::forecast::memory;
 use terrarium::output::{Stamp, atomic, depfile};
-use terrarium::plan::Plan;
+use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
@@ -30,10 +30,10 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     probe(args, &targets)?;
     let reporter = Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet);
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene)?);
+        terminal.say(&announcement(args, &loaded.scene, began)?);
     }
 
-    let mut rendered = render::render(&loaded, &options(args), &reporter).map_err(|error| {
+    let mut rendered = render::render(&loaded, &options(args, began), &reporter).map_err(|error| {
         reporter.finish();
         unbuildable(error, &loaded, terminal)
     })?;
@@ -95,18 +95,17 @@ pub fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> 
     if report.errors().next().is_none() { Failure::from(error) } else { refused(&report, terminal) }
 }
 
-fn options(args: &RenderArgs) -> Options {
-    Options { tile: args.tile, strict: args.strict, ..args.work.options() }
+fn options(args: &RenderArgs, began: Instant) -> Options {
+    Options { tile: args.tile, strict: args.strict, began: Some(began), ..args.work.options() }
 }
 
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene) -> Result<String, Failure> {
-    let plan = Plan::new(scene, &options(args).request()).map_err(RenderError::from)?;
-    let passes = plan.passes;
+fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<String, Failure> {
+    let plan = Plan::new(scene, &options(args, began).request()).map_err(RenderError::from)?;
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
-    let passes = if passes == 1 { "1 pass".to_string() } else { format!("{passes} passes") };
+    let until = until(&plan);
     let mut line = format!(
-        "{}: {} × {} pixels, {passes}, {}",
+        "{}: {} × {} pixels, {until}, {}",
         args.scene.display(),
         scene.image.width,
         scene.image.height,
@@ -119,6 +118,20 @@ fn announcement(args: &RenderArgs, scene: &Scene) -> Result<String, Failure> {
         line += &format!("\n{note}");
     }
     Ok(line)
+}
+
+/// When the render will end.
+pub fn until(plan: &Plan) -> String {
+    let Until { seconds, error } = plan.until;
+    let time = seconds.map(|seconds| format!("until {} are over", duration(seconds)));
+    let error = error.map(|error| format!("until the error is {} %", short(100.0 * error)));
+    let passes = match plan.passes {
+        1 => Some("1 pass".to_owned()),
+        n if n < MOST_PASSES => Some(format!("{n} passes")),
+        _ => None,
+    };
+    let rules: Vec<String> = passes.into_iter().chain(time).chain(error).collect();
+    rules.join(" or ")
 }
 
 /// Images, statistics and dependency file must be different files.

@@ -46,6 +46,7 @@ impl Summary<'_> {
             let predicted = duration(self.stats.predicted_seconds);
             terminal.say(&format!("of which: {} (predicted: {predicted} in all)", prices.join(", ")));
         }
+        accuracy(self.stats).iter().for_each(|line| terminal.say(line));
         let rays = rays(&self.stats.rays);
         if !rays.is_empty() {
             terminal.say(&format!("rays: {rays}"));
@@ -82,6 +83,43 @@ impl Summary<'_> {
             terminal.say(&format!("PNG: {} pixels ({share:.1} %) are out of range", self.clamped_pixels));
         }
     }
+}
+
+/// How far the picture is from the truth, where that comes from, and what less of it would cost.
+fn accuracy(stats: &Stats) -> Vec<String> {
+    let percent = |share: f64| format!("{} %", significant(100.0 * share));
+    let Some(a) = &stats.accuracy else {
+        return vec!["accuracy: unknown, as one pass tells nothing of it (--passes 2 or more)".to_owned()];
+    };
+    let [low, high] = a.interval;
+    let mut lines = vec![format!(
+        "accuracy: error {} (95 %: {} to {}) after {} passes; noise {}, bias {}",
+        percent(a.error),
+        significant(100.0 * low),
+        percent(high),
+        a.passes,
+        percent(a.noise),
+        percent(a.bias)
+    )];
+    let parts: Vec<String> =
+        a.by_effect.iter().map(|part| format!("{} {:.0} %", part.effect, 100.0 * part.share)).collect();
+    lines.push(format!("  where: {} of the squared error", parts.join(", ")));
+    if let Some(next) = &stats.next {
+        let factors: Vec<String> =
+            next.by_effect.iter().map(|f| format!("{} ×{}", f.effect, significant(f.passes))).collect();
+        let more = duration(next.seconds);
+        lines.push(format!("  next: {} for about {more} more ({})", percent(next.error), factors.join(", ")));
+    }
+    if !stats.not_seen.is_empty() {
+        lines.push(format!("  not in it: {}", stats.not_seen.join("; ")));
+    }
+    lines
+}
+
+/// Two digits that count.
+fn significant(x: f64) -> String {
+    let decimals = if x >= 9.95 || x <= 0.0 { 0.0 } else { 1.0 - x.log10().floor() };
+    format!("{x:.*}", decimals.clamp(0.0, 6.0) as usize)
 }
 
 /// What an effect took, and should have.

@@ -83,6 +83,13 @@ pub struct Render {
     /// Independent passes whose mean is the image. Without it: 64 for progressive antialiasing, else 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passes: Option<u32>,
+    /// Wall seconds of the whole process after which the render ends, above 0. Without it: no limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
+    /// Relative RMS error of the picture at which the render ends, such as 0.02 for 2 %; above 0. Needs
+    /// progressive antialiasing. Without it: no limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
     /// Seed of every random value.
     pub seed: u64,
     /// Specular events in a row after which a path is cut (and counted as cut); 1 to 10000.
@@ -91,6 +98,6 @@ pub struct Render {
 
 impl Default for Render {
     fn default() -> Self {
-        Render { passes: None, seed: 0, max_depth: 32 }
+        Render { passes: None, time_s: None, error: None, seed: 0, max_depth: 32 }
     }
 }

@@ -8,7 +8,6 @@
 pub mod memory;
 mod pilot;
 
-use crate::plan::Plan;
 use crate::trace::{Part, Rays, Spent, Tracer};
 pub use pilot::Pace;
 use serde::Serialize;
@@ -57,9 +56,8 @@ impl PhotonSeconds {
 }
 
 impl Cost {
-    /// Of all passes that are left, where the photons of each but the first take `photons`.
-    pub fn forecast(pace: &Pace, tracer: &Tracer, photons: PhotonSeconds) -> Cost {
-        let Plan { passes, .. } = *tracer.plan;
+    /// Of so many passes, where the photons of each but the first take `photons`.
+    pub fn forecast(pace: &Pace, tracer: &Tracer, photons: PhotonSeconds, passes: u32) -> Cost {
         let camera = &tracer.world.camera;
         let pixels = f64::from(camera.width) * f64::from(camera.height) * f64::from(passes);
         let later = photons.times(f64::from(passes.saturating_sub(1)));

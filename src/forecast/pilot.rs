@@ -44,8 +44,8 @@ const SECONDS: (f64, f64) = (0.001, 0.02);
 const TIMED: u32 = 7;
 
 impl Pace {
-    /// Of a tracer that has its photons, in pass number `pass`.
-    pub fn measure(tracer: &Tracer, pass: u32) -> Pace {
+    /// Of a tracer that has its photons, in pass number `pass`, for a render of about `passes` passes.
+    pub fn measure(tracer: &Tracer, pass: u32, passes: u32) -> Pace {
         let began = Instant::now();
         let camera = &tracer.world.camera;
         let all = f64::from(camera.width) * f64::from(camera.height);
@@ -61,7 +61,7 @@ impl Pace {
             }
             traced.iter().for_each(|one| sum.add(one));
             round += 1;
-            let predicted = sum.tally.seconds / sum.pixels * all * f64::from(tracer.plan.passes);
+            let predicted = sum.tally.seconds / sum.pixels * all * f64::from(passes);
             let enough = (SHARE * predicted / f64::from(threads)).clamp(SECONDS.0, SECONDS.1);
             if began.elapsed().as_secs_f64() >= enough && round > 1 || sum.pixels >= all {
                 break;

@@ -11,6 +11,7 @@ mod lighting;
 mod overrides;
 mod photons;
 mod placed;
+mod until;
 
 pub use crate::description::Antialiasing;
 pub use crate::description::IndirectBy;
@@ -23,6 +24,7 @@ pub use photons::{Kernel, PhotonBudget, PhotonEngine};
 pub use placed::used_materials;
 use std::borrow::Cow;
 use std::ops::Range;
+pub use until::{FEWEST, MOST_PASSES, Until};
 
 /// What a caller asks for beyond the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +32,7 @@ pub struct Request {
     /// The numbers of the passes, from the first to the one after the last.
     pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
+    pub until: Until,
     pub overrides: Overrides,
 }
 
@@ -41,6 +44,8 @@ pub struct Plan {
     pub passes: u32,
     /// The number of the first of them.
     pub first_pass: u32,
+    /// What may end the render before its last pass.
+    pub until: Until,
     pub seed: u64,
     /// Specular events in a row after which a path is cut.
     pub max_depth: u32,
@@ -86,6 +91,8 @@ impl Plan {
         let scene = &*overrides::edited(scene, &overrides, &carried);
         let decisions =
             if overrides.is_empty() { own } else { overrides.decide(&own, &decide::decide(scene), &carried) };
+        let until = Until::of(scene, request.until);
+        until.check(scene).map_err(Refused)?;
         let progressive = scene.antialiasing == Antialiasing::Progressive;
         let caustics = overrides.forced || decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
         let passes = request.passes.clone();
@@ -95,9 +102,14 @@ impl Plan {
                 .as_ref()
                 .map(|range| range.end.saturating_sub(range.start))
                 .or(scene.render.passes)
-                .unwrap_or(if progressive { DEFAULT_PASSES } else { 1 })
+                .unwrap_or(match (until.is_any(), progressive) {
+                    (true, _) => MOST_PASSES,
+                    (false, true) => DEFAULT_PASSES,
+                    (false, false) => 1,
+                })
                 .max(1),
             first_pass: passes.map_or(0, |range| range.start),
+            until,
             seed: request.seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.

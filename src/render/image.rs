@@ -3,7 +3,7 @@
 use super::{Aov, Options};
 use crate::build::World;
 use crate::description::Loaded;
-use crate::film::Film;
+use crate::film::{Accuracy, Film};
 use crate::math::Rare;
 use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance};
 use crate::plan::Plan;
@@ -41,6 +41,14 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
     image
 }
 
+/// Rec. 709 luminance of the picture, the mean over its pixels.
+pub(super) fn mean_luminance(image: &Image) -> f64 {
+    let Some(picture) = image.beauty() else { return 0.0 };
+    let mean =
+        |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;
+    picture.channels.iter().zip([0.2126, 0.7152, 0.0722]).map(|((_, values), w)| w * mean(values)).sum()
+}
+
 /// All of it follows from the scene, the seed and the program: no times, no machine.
 pub(super) fn provenance(
     loaded: &Loaded,
@@ -48,8 +56,10 @@ pub(super) fn provenance(
     world: &World,
     tally: &Tally,
     film: &Film,
+    passes: u32,
+    accuracy: Option<&Accuracy>,
 ) -> Provenance {
-    let mut provenance = Provenance::new(&loaded.hash, plan.seed, plan.passes);
+    let mut provenance = Provenance::new(&loaded.hash, plan.seed, passes);
     provenance.plan = plan.text();
     let camera = &world.camera;
     provenance.camera = Some(CameraView {
@@ -65,6 +75,9 @@ pub(super) fn provenance(
     // 0 is no object.
     provenance.objects = (1..).zip(world.object_names.iter().cloned()).collect();
     let stats = &mut provenance.stats;
+    if let Some(accuracy) = accuracy.and_then(|accuracy| serde_json::to_value(accuracy).ok()) {
+        stats.insert("accuracy".to_owned(), accuracy);
+    }
     stats.insert("samples".to_owned(), film.samples().into());
     // Whether, not how many: a corner that tiles share is counted in each of them, and the size of
     // tiles must not show in the file.

@@ -2,10 +2,11 @@
 
 use super::Planned;
 use crate::build::BuildError;
-use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request};
-use crate::trace::Wants;
+use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request, Until};
+use crate::trace::{Probes, Wants};
 use std::ops::Range;
 use std::str::FromStr;
+use std::time::Instant;
 
 /// Options of one render. They override what the scene says.
 #[derive(Clone, Debug)]
@@ -16,6 +17,10 @@ pub struct Options {
     /// can be rendered alone.
     pub passes: Option<Range<u32>>,
     pub seed: Option<u64>,
+    /// When to stop before the last pass.
+    pub until: Until,
+    /// When the process began, for a limit on its time; without it, when rendering began.
+    pub began: Option<Instant>,
     /// Effects that are left out or added.
     pub overrides: Overrides,
     /// Further layers of the image.
@@ -32,6 +37,8 @@ impl Default for Options {
             threads: None,
             passes: None,
             seed: None,
+            until: Until::default(),
+            began: None,
             overrides: Overrides::default(),
             aovs: Vec::new(),
             tile: 32,
@@ -120,16 +127,22 @@ impl FromStr for Aov {
 impl Options {
     /// What they ask of the plan.
     pub fn request(&self) -> Request {
-        Request { passes: self.passes.clone(), seed: self.seed, overrides: self.overrides.clone() }
+        Request {
+            passes: self.passes.clone(),
+            seed: self.seed,
+            until: self.until,
+            overrides: self.overrides.clone(),
+        }
     }
 
-    pub(super) fn wants(&self) -> Wants {
+    pub(super) fn wants(&self, width: u32, height: u32) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
             split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
             variance: any(&[Aov::Variance]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
+            probes: Some(Probes::of(width, height)),
         }
     }
 
@@ -164,6 +177,8 @@ pub trait Progress: Sync {
     fn finish(&self);
     /// What the render will take is known, and tracing begins.
     fn planned(&self, _: &Planned) {}
+    /// The picture's error, as it is and as it should become.
+    fn error(&self, _: f64, _: f64) {}
     /// Something worth a line.
     fn note(&self, message: &str);
 }

@@ -6,7 +6,7 @@ use super::prepare::Prepared;
 use super::prices::first_photons;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
-use crate::plan::{Antialiasing, Plan};
+use crate::plan::{Antialiasing, Plan, Until};
 use crate::survey::Survey;
 use crate::trace::{self, Rays};
 use serde::Serialize;
@@ -16,7 +16,9 @@ use serde::Serialize;
 pub struct Planned {
     #[serde(flatten)]
     pub survey: Survey,
+    /// As many as there will be; with an error to be reached, at least.
     pub passes: u32,
+    pub until: Until,
     /// Wall seconds from reading the plan to the finished image in memory.
     pub seconds: f64,
     /// The same by stage: those before `trace` are measured.
@@ -43,21 +45,18 @@ impl Planned {
         options: &Options,
         clock: &Clock,
         cost: Cost,
+        passes: u32,
     ) -> Planned {
         let Prepared { plan, world, wants, stages, .. } = ready;
         let mut photons = stages.stats(world);
         stages.count(&mut photons, &mut Default::default(), first);
         let pixels = u64::from(world.camera.width) * u64::from(world.camera.height);
         let film = pixels * trace::Tile::bytes_per_pixel(trace::layers(wants)) as u64;
-        let several = plan.passes > 1 && !stages.one_map();
+        let several = passes > 1 && !stages.one_map();
         let later = memory::Later {
             film,
             photons: if several { ready.photon_bytes() } else { 0 },
-            tiles: kept_by_tiles(
-                plan,
-                options,
-                cost.samples as f64 / (pixels * u64::from(plan.passes)) as f64,
-            ),
+            tiles: kept_by_tiles(plan, options, cost.samples as f64 / (pixels * u64::from(passes)) as f64),
             image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
         };
         let mut prices = cost.bill;
@@ -66,7 +65,8 @@ impl Planned {
         done.push(StageTime { name: "trace".to_owned(), seconds: cost.seconds });
         Planned {
             survey: ready.survey.clone(),
-            passes: plan.passes,
+            passes,
+            until: plan.until,
             seconds: clock.sum() + cost.seconds,
             stages: done,
             prices,

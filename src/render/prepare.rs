@@ -42,7 +42,7 @@ impl Prepared {
         progress.finish();
         clock.lap("build");
 
-        let wants = options.wants();
+        let wants = options.wants(world.camera.width, world.camera.height);
         let mut reference_level = 1.0;
         if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
             let tracer =
@@ -91,19 +91,23 @@ impl Prepared {
         progress: &dyn Progress,
         clock: &mut Clock,
     ) -> Planned {
+        let guess = self.plan.passes.min(if self.plan.until.is_any() { GUESS } else { u32::MAX });
         // Radii shrink; this pass's is the typical one.
-        let typical = self.plan.first_pass + (TYPICAL * f64::from(self.plan.passes)) as u32;
+        let typical = self.plan.first_pass + (TYPICAL * f64::from(guess)) as u32;
         let tracer = Tracer {
             caustics: self.stages.caustics_of(first, typical),
             indirect: self.stages.indirect_of(first, typical),
             ..self.tracer(first)
         };
-        let pace = Pace::measure(&tracer, typical);
+        let pace = Pace::measure(&tracer, typical, guess);
         let threads = rayon::current_num_threads() as f64;
         let later = if self.stages.one_map() { PhotonSeconds::default() } else { first.seconds() };
-        let cost = Cost::forecast(&pace, &tracer, later.times(threads));
+        let photons = later.times(threads);
+        let cost = |passes| Cost::forecast(&pace, &tracer, photons, passes);
+        let spent = options.began.map_or(clock.sum(), |began| began.elapsed().as_secs_f64());
+        let passes = self.plan.until.passes(self.plan.passes, spent, cost(1).seconds, cost(2).seconds);
         clock.lap("forecast");
-        let planned = Planned::new(self, first, options, clock, cost);
+        let planned = Planned::new(self, first, options, clock, cost(passes), passes);
         progress.planned(&planned);
         planned
     }
@@ -116,3 +120,6 @@ impl Prepared {
 /// The passes before the one whose squared radius is the mean of all, as a share: for r² ∝ n^(−1/3) that is
 /// (2/3)³.
 const TYPICAL: f64 = 8.0 / 27.0;
+
+/// Passes that are reckoned with before it is known how many a time allows.
+const GUESS: u32 = 64;

@@ -1,8 +1,8 @@
 //! What a render cost and counted, for people and machines.
 
-use super::{AllPhotons, Planned, Priced};
+use super::{AllPhotons, Next, Planned, Priced};
 use crate::build::{Geometry, Mesh, World};
-use crate::film::Film;
+use crate::film::{Accuracy, Film};
 use crate::math::Rare;
 use crate::trace::{Rays, Tally};
 use serde::Serialize;
@@ -17,6 +17,12 @@ pub struct Stats {
     pub predicted_seconds: f64,
     pub predicted_peak_bytes: Option<u64>,
     pub passes: u32,
+    /// How far the picture still is from the truth; unknown after one pass.
+    pub accuracy: Option<Accuracy>,
+    /// What of the error no pass shows.
+    pub not_seen: Vec<String>,
+    /// The price of half the error.
+    pub next: Option<Next>,
     /// Camera samples.
     pub samples: u64,
     pub rays: Rays,
@@ -70,6 +76,7 @@ pub struct SceneSize {
 }
 
 impl Stats {
+    #[expect(clippy::too_many_arguments, reason = "all that a render leaves")]
     pub(super) fn new(
         stages: Vec<StageTime>,
         tally: &Tally,
@@ -78,6 +85,9 @@ impl Stats {
         photons: AllPhotons,
         prices: Vec<Priced>,
         planned: &Planned,
+        passes: u32,
+        accuracy: Option<Accuracy>,
+        not_seen: Vec<String>,
     ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
@@ -86,12 +96,19 @@ impl Stats {
             of: health.samples,
             allowed: event.allowed(),
         });
+        let traced =
+            stages.iter().filter(|stage| stage.name == "trace").map(|stage| stage.seconds).sum::<f64>();
         Stats {
             stages,
             prices,
             predicted_seconds: planned.seconds,
             predicted_peak_bytes: planned.peak_bytes,
-            passes: planned.passes,
+            passes,
+            next: accuracy
+                .as_ref()
+                .and_then(|accuracy| Next::of(accuracy, traced / f64::from(passes.max(1)))),
+            accuracy,
+            not_seen,
             samples: health.samples,
             rays: tally.rays,
             truncated_paths: tally.cut.paths,

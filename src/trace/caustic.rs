@@ -71,8 +71,7 @@ impl Tracer<'_> {
             // The blur's bias goes as r² (Silverman 1986, 4.3): half of it is gone at r/√2.
             let inner = gather(Some(gathered.radius * std::f32::consts::FRAC_1_SQRT_2));
             let sequence = branch.sequence.dimension(INNER);
-            let inner_correction =
-                self.edge_correction(caustics, surface, shading, &inner, sequence, tally);
+            let inner_correction = self.edge_correction(caustics, surface, shading, &inner, sequence, tally);
             2.0 * (gathered.radiance * correction - inner.radiance * inner_correction)
         } else {
             Vec3::ZERO

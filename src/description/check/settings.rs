@@ -30,6 +30,11 @@ pub(super) fn check(c: &mut Checker) {
     if scene.render.passes == Some(0) {
         c.error(&Path::of("render.passes"), "0 passes make no image, at least 1 is needed");
     }
+    for (key, value) in [("render.time_s", scene.render.time_s), ("render.error", scene.render.error)] {
+        if let Some(value) = value {
+            c.positive(&Path::of(key), value);
+        }
+    }
     c.within(&Path::of("render.max_depth"), scene.render.max_depth.into(), 1.0, 10_000.0);
     c.colour(&Path::of("background"), &scene.background);
     c.colour(&Path::of("ambient"), &scene.ambient);
