@@ -82,7 +82,7 @@ impl<'a> Lights<'a> {
     }
 
     pub fn highlights(&self, uses: &[Use]) -> Decision {
-        let shiny = who(uses, |m| (!m.specular.is_zero()).then(|| " is specular".to_owned()));
+        let shiny = who(uses, ["is", "are"], |m| (!m.specular.is_zero()).then(|| " specular".to_owned()));
         match shiny {
             Some(_) if self.all().is_empty() => Decision::off(Effect::Highlights, "the scene has no light"),
             found => Decision::of(Effect::Highlights, found, "no reachable material has a `specular` layer"),

@@ -2,12 +2,13 @@
 
 use crate::description::{Material, Object, Scene, Shape};
 use std::collections::{HashMap, HashSet};
+use std::fmt;
 
 /// A material with the objects of the scene that are made of it.
 pub(super) struct Use<'a> {
     pub name: &'a str,
     pub material: &'a Material,
-    /// Each once, by its name or, without one, by its place: `objects.3`.
+    /// Each once: by its name, or that of the definition or group that it is in, or its place: `objects.3`.
     pub objects: Vec<String>,
 }
 
@@ -16,82 +17,108 @@ pub(super) struct Use<'a> {
 pub(super) fn uses(scene: &Scene) -> Vec<Use<'_>> {
     let mut uses: Vec<Use> = Vec::new();
     let mut places = HashMap::new();
-    for (object, name) in placed(scene) {
+    let walk = Walk::of(scene);
+    for (label, name) in walk.found {
         let Some(material) = scene.materials.get(name) else { continue };
         let place = *places.entry(name).or_insert_with(|| {
             uses.push(Use { name, material, objects: Vec::new() });
             uses.len() - 1
         });
-        uses[place].objects.push(label(scene, object));
+        uses[place].objects.push(label.to_string());
     }
     uses
 }
 
 /// The names of all materials that placed objects use.
 pub fn used_materials(scene: &Scene) -> HashSet<&str> {
-    placed(scene).into_iter().map(|(_, material)| material).collect()
+    Walk::of(scene).found.into_iter().map(|(_, material)| material).collect()
 }
 
-fn label(scene: &Scene, object: usize) -> String {
-    scene.objects[object].name.clone().unwrap_or_else(|| format!("objects.{object}"))
+/// What an object is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Label<'a> {
+    Name(&'a str),
+    Place(usize),
 }
 
-/// The index of each object with its materials, each pair once, in the order of the scene.
-fn placed(scene: &Scene) -> Vec<(usize, &str)> {
-    let mut walk = Walk { scene, object: 0, found: Vec::new(), pairs: HashSet::new(), seen: HashSet::new() };
-    for (i, object) in scene.objects.iter().enumerate() {
-        walk.object = i;
-        walk.visit(object, None, 0);
+impl fmt::Display for Label<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Label::Name(name) => f.write_str(name),
+            Label::Place(i) => write!(f, "objects.{i}"),
+        }
     }
-    walk.found
+}
+
+/// What a nested object takes from those around it.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    label: Label<'a>,
+    material: Option<&'a str>,
+    nesting: u32,
 }
 
 struct Walk<'a> {
     scene: &'a Scene,
-    object: usize,
-    found: Vec<(usize, &'a str)>,
-    pairs: HashSet<(usize, &'a str)>,
-    /// Definitions that were gone through, with what was handed down to them.
-    seen: HashSet<(usize, &'a str, Option<&'a str>)>,
+    /// Objects with their materials, each pair once, in the order of the scene.
+    found: Vec<(Label<'a>, &'a str)>,
+    pairs: HashSet<(Label<'a>, &'a str)>,
+    /// Definitions that were gone through, with the name and the material that were handed down to them.
+    seen: HashSet<(Label<'a>, &'a str, Option<&'a str>)>,
 }
 
 /// As deep as objects are placed.
 const MAX_NESTING: u32 = 256;
 
 impl<'a> Walk<'a> {
-    fn visit(&mut self, object: &'a Object, around: Option<&'a str>, nesting: u32) {
-        if nesting > MAX_NESTING {
+    fn of(scene: &'a Scene) -> Walk<'a> {
+        let mut walk = Walk { scene, found: Vec::new(), pairs: HashSet::new(), seen: HashSet::new() };
+        for (i, object) in scene.objects.iter().enumerate() {
+            walk.visit(object, Around { label: Label::Place(i), material: None, nesting: 0 });
+        }
+        walk
+    }
+
+    fn visit(&mut self, object: &'a Object, around: Around<'a>) {
+        if around.nesting > MAX_NESTING {
             return;
         }
-        let material = object.material.as_deref().or(around);
+        let around = Around {
+            label: object.name.as_deref().map_or(around.label, Label::Name),
+            material: object.material.as_deref().or(around.material),
+            nesting: around.nesting + 1,
+        };
+        let named = object.name.is_some();
         match &object.shape {
-            Shape::Group { objects } => objects.iter().for_each(|o| self.visit(o, material, nesting + 1)),
-            Shape::Instance { of } => self.definition(of, material, nesting),
+            Shape::Group { objects } => objects.iter().for_each(|object| self.visit(object, around)),
+            Shape::Instance { of } => self.definition(of, named, around),
             Shape::Scatter(scatter) if scatter.count == 0 => {}
             Shape::Scatter(scatter) => {
-                scatter.of.iter().for_each(|name| self.definition(name, material, nesting));
+                scatter.of.iter().for_each(|name| self.definition(name, named, around))
             }
             Shape::Mesh { parts, .. } => {
-                self.add(material);
-                parts.iter().for_each(|(_, part)| self.add(Some(part)));
+                self.add(around.label, around.material);
+                parts.iter().for_each(|(_, part)| self.add(around.label, Some(part)));
             }
-            _ => self.add(material),
+            _ => self.add(around.label, around.material),
         }
     }
 
-    fn definition(&mut self, name: &'a str, around: Option<&'a str>, nesting: u32) {
-        if self.seen.insert((self.object, name, around))
+    /// A copy of a definition, by whose name it goes unless it is `named`.
+    fn definition(&mut self, name: &'a str, named: bool, around: Around<'a>) {
+        let label = if named { around.label } else { Label::Name(name) };
+        if self.seen.insert((label, name, around.material))
             && let Some(object) = self.scene.definitions.get(name)
         {
-            self.visit(object, around, nesting + 1);
+            self.visit(object, Around { label, ..around });
         }
     }
 
-    fn add(&mut self, material: Option<&'a str>) {
+    fn add(&mut self, label: Label<'a>, material: Option<&'a str>) {
         if let Some(material) = material
-            && self.pairs.insert((self.object, material))
+            && self.pairs.insert((label, material))
         {
-            self.found.push((self.object, material));
+            self.found.push((label, material));
         }
     }
 }
