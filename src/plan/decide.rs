@@ -1,9 +1,8 @@
 //! What the scene's content calls for, effect by effect.
 
 use super::decision::{Cause, Decision, few};
-use super::placed::{Use, uses};
 use super::{Effect, lighting};
-use crate::description::{Antialiasing, Indirect, Ior, Material, NAMED_IOR, Scene, Source};
+use crate::description::{Antialiasing, Indirect, Ior, Material, NAMED_IOR, Scene, Source, Use, uses};
 
 /// One decision an effect, in their order.
 pub(super) fn decide(scene: &Scene) -> Vec<Decision> {

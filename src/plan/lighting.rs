@@ -3,8 +3,7 @@
 use super::Effect;
 use super::decide::{is_specular, who};
 use super::decision::{Cause, Decision, few};
-use super::placed::Use;
-use crate::description::{Light, Material, Photons, Rgb, Scene, Source};
+use crate::description::{Light, Material, Photons, Rgb, Scene, Source, Use};
 
 /// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
 pub(super) struct Lights<'a> {

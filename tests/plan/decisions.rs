@@ -46,7 +46,7 @@ const TABLE: &[Row] = &[
         without: ["", "", LAMP, ""], off: "nested media: off: no reachable material transmits" },
     Row { effect: Effect::Absorption,
         with: ["", r#""tea": (transmission: 1, absorption: (1, 2, 3))"#, LAMP, r#"(name: "cup", shape: sphere(), material: "tea")"#], on: "absorption: on: `cup` (material `tea`) absorbs inside",
-        without: ["", r#""tea": (diffuse: 0.5, absorption: (1, 2, 3))"#, LAMP, r#"(name: "cup", shape: sphere(), material: "tea")"#], off: "absorption: off: no reachable material that transmits absorbs" },
+        without: ["", r#""tea": (transmission: 1)"#, LAMP, r#"(name: "cup", shape: sphere(), material: "tea")"#], off: "absorption: off: no reachable material that transmits absorbs" },
     Row { effect: Effect::Dispersion,
         with: ["", r#""flint": (transmission: 1, ior: 1.6, dispersion: abbe(36))"#, LAMP, r#"(name: "prism", shape: box(), material: "flint")"#], on: "dispersion: on: `prism` (material `flint`) disperses",
         without: ["", r#""flint": (transmission: 1, ior: 1.6)"#, LAMP, r#"(name: "prism", shape: box(), material: "flint")"#], off: "dispersion: off: no reachable material that transmits disperses" },

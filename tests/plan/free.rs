@@ -96,7 +96,11 @@ fn a_ball_of_the_index_around_it_is_invisible() {
     let text = |objects: &str| scene("antialiasing: none, photons: off,", water, LAMP, objects);
     let with = render(&text(&format!("{pool}{drop}")), &Overrides::default());
     let none = render(&text(pool), &Overrides::default());
+    let brightest = none.grey().into_iter().fold(0.0, f64::max);
     for (a, b) in with.grey().iter().zip(none.grey()) {
-        assert!((a - b).abs() <= 1e-5 * b.abs().max(1e-3), "{a} and {b}");
+        // Branches lighter than 1/256 survive by chance, and not by the same.
+        assert!((a - b).abs() <= 1e-5 * b + brightest / 128.0, "{a} and {b}");
     }
+    let same = with.grey().iter().zip(none.grey()).filter(|(a, b)| (*a - b).abs() <= 1e-5 * b).count();
+    assert!(same as f64 > 0.9 * with.grey().len() as f64, "{same}");
 }

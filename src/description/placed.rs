@@ -1,11 +1,11 @@
 //! The materials of placed objects: only these can call for anything.
 
-use crate::description::{Material, Object, Scene, Shape};
+use super::{Material, Object, Scene, Shape};
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// A material with the objects of the scene that are made of it.
-pub(super) struct Use<'a> {
+pub struct Use<'a> {
     pub name: &'a str,
     pub material: &'a Material,
     /// Each once: by its name, or that of the definition or group that it is in, or its place: `objects.3`.
@@ -14,7 +14,7 @@ pub(super) struct Use<'a> {
 
 /// The materials in the order in which the scene's objects first use them. Names that the scene does not
 /// have are left out.
-pub(super) fn uses(scene: &Scene) -> Vec<Use<'_>> {
+pub fn uses(scene: &Scene) -> Vec<Use<'_>> {
     let mut uses: Vec<Use> = Vec::new();
     let mut places = HashMap::new();
     let walk = Walk::of(scene);
