@@ -13,7 +13,7 @@ const GLASS: &str = r#"(
         "glass": (transmission: 1, ior: 1.5),
         "mirror": (reflection: 0.8),
     },
-    textures: { "squares": checker(squares: (8, 8)) },
+    textures: { "squares": checker(a: 0.7, b: 0.2, squares: (8, 8)) },
     lights: { "lamp": sphere(center: (-2, 5, 2), radius: 0.3, radiance: 80) },
     objects: [
         (name: "floor", shape: quad(size: (10, 10)), material: "floor"),

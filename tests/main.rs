@@ -14,6 +14,8 @@ mod obj;
 mod output;
 #[path = "photons/main.rs"]
 mod photons;
+#[path = "plan/main.rs"]
+mod plan;
 #[path = "render/main.rs"]
 mod render;
 #[path = "scene_files/main.rs"]

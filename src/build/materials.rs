@@ -5,10 +5,11 @@ use super::examine::Findings;
 use super::images::{Images, Limits, TextureUse};
 use crate::description::{
     self, Dispersion, Ior, Kind, Material as Described, NAMED_IOR, Place, Scene, Severity, Source,
+    used_materials,
 };
 use crate::math::Vec3;
 use crate::optics::{Cauchy, Material, MaterialId, Relief, Texture, TextureId, Weight};
-use crate::plan::{Effect, Plan, used_materials};
+use crate::plan::{Effect, Plan};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 

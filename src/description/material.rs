@@ -58,6 +58,19 @@ pub struct Material {
     pub bump_map: Option<BumpMap>,
 }
 
+impl Material {
+    /// The names of all textures that it uses.
+    pub fn textures(&self) -> impl Iterator<Item = &str> {
+        let weights = [&self.diffuse, &self.specular, &self.reflection, &self.transmission, &self.emission];
+        let maps = [
+            self.normal_map.as_ref().map(|map| &map.texture),
+            self.bump_map.as_ref().map(|map| &map.texture),
+        ];
+        let named = weights.into_iter().filter_map(Source::texture).map(|t| &t.name);
+        named.chain(maps.into_iter().flatten()).map(String::as_str)
+    }
+}
+
 fn is_zero_priority(p: &i32) -> bool {
     *p == 0
 }

@@ -82,10 +82,11 @@ impl Carried {
         Carried { first: first.without(missing), behind: behind.without(missing) }
     }
 
-    /// Whether any path of the eye may carry it, those of indirect light included.
+    /// Whether any light that is carried may have come by it: indirect light by any, caustics from the sky.
     pub fn anywhere(&self, effect: Effect) -> bool {
-        let of = Carriers::of(effect);
-        self.first.with(self.behind).any(of.with(Carriers::INDIRECT))
+        let of = Carriers::of(effect).with(Carriers::INDIRECT);
+        let of = if effect == Effect::Environment { of.with(Carriers::CAUSTICS) } else { of };
+        self.first.with(self.behind).any(of)
     }
 }
 

@@ -1,9 +1,8 @@
 //! What the scene's content calls for, effect by effect.
 
 use super::decision::{Cause, Decision, few};
-use super::placed::{Use, uses};
 use super::{Effect, lighting};
-use crate::description::{Antialiasing, Indirect, Ior, Material, NAMED_IOR, Scene, Source};
+use crate::description::{Antialiasing, Indirect, Ior, Material, NAMED_IOR, Scene, Source, Use, uses};
 
 /// One decision an effect, in their order.
 pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
@@ -20,9 +19,9 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::Caustics => lights.caustics(scene, &uses),
             Effect::Reflection => Decision::of(
                 effect,
-                who(&uses, |m| match (m.reflection.is_zero(), is_interface(m)) {
-                    (false, _) => Some(" reflects".to_owned()),
-                    (true, true) => Some(" reflects at its surface, by Fresnel".to_owned()),
+                who(&uses, ["reflects", "reflect"], |m| match (m.reflection.is_zero(), is_interface(m)) {
+                    (false, _) => Some(String::new()),
+                    (true, true) => Some(" by Fresnel".to_owned()),
                     (true, false) => None,
                 }),
                 "no reachable material reflects or transmits",
@@ -31,31 +30,33 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::NestedMedia => nested_media(&uses),
             Effect::Absorption => Decision::of(
                 effect,
-                who(&uses, |m| {
+                who(&uses, ["absorbs", "absorb"], |m| {
                     let absorbs = !m.absorption.is_zero() && !m.transmission.is_zero();
-                    absorbs.then(|| " absorbs inside".to_owned())
+                    absorbs.then(|| " inside".to_owned())
                 }),
                 "no reachable material that transmits absorbs",
             ),
             Effect::Dispersion => Decision::of(
                 effect,
-                who(&uses, |m| {
+                who(&uses, ["disperses", "disperse"], |m| {
                     let disperses = m.dispersion.is_some() && !m.transmission.is_zero();
-                    disperses.then(|| " disperses".to_owned())
+                    disperses.then(String::new)
                 }),
                 "no reachable material that transmits disperses",
             ),
-            Effect::Textures => {
-                Decision::of(effect, who(&uses, texture_names), "no reachable material names a texture")
-            }
+            Effect::Textures => Decision::of(
+                effect,
+                who(&uses, ["names", "name"], texture_names),
+                "no reachable material names a texture",
+            ),
             Effect::NormalMaps => Decision::of(
                 effect,
-                who(&uses, |m| Some(format!(" names `{}`", m.normal_map.as_ref()?.texture))),
+                who(&uses, ["names", "name"], |m| Some(format!(" `{}`", m.normal_map.as_ref()?.texture))),
                 "no reachable material names one",
             ),
             Effect::BumpMaps => Decision::of(
                 effect,
-                who(&uses, |m| Some(format!(" names `{}`", m.bump_map.as_ref()?.texture))),
+                who(&uses, ["names", "name"], |m| Some(format!(" `{}`", m.bump_map.as_ref()?.texture))),
                 "no reachable material names one",
             ),
             Effect::Indirect => indirect(scene),
@@ -73,14 +74,21 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
         .collect()
 }
 
-/// The objects whose materials are found, with what is said of them; two materials are told, the rest
-/// counted.
-pub(super) fn who(uses: &[Use], found: impl Fn(&Material) -> Option<String>) -> Option<String> {
+/// The objects whose materials are found, what they do (of one and of several), and what more is said of
+/// them; two materials are told, the rest counted.
+pub(super) fn who(
+    uses: &[Use],
+    does: [&str; 2],
+    found: impl Fn(&Material) -> Option<String>,
+) -> Option<String> {
     let found: Vec<(&Use, String)> = uses.iter().filter_map(|u| Some((u, found(u.material)?))).collect();
     let told: Vec<String> = found
         .iter()
         .take(2)
-        .map(|(u, said)| format!("{} (material `{}`){said}", few(&u.objects), u.name))
+        .map(|(u, said)| {
+            let does = does[usize::from(u.objects.len() > 1)];
+            format!("{} (material `{}`) {does}{said}", few(&u.objects), u.name)
+        })
         .collect();
     let rest = match found.len().saturating_sub(2) {
         0 => String::new(),
@@ -122,13 +130,13 @@ pub(super) fn is_specular(m: &Material) -> bool {
 }
 
 fn refraction(uses: &[Use]) -> Decision {
-    let real = who(uses, |m| is_interface(m).then(|| format!(" transmits, ior {}", ior(m))));
+    let real = who(uses, ["transmits", "transmit"], |m| is_interface(m).then(|| format!(", ior {}", ior(m))));
     if let Some(reason) = real {
         return Decision::on(Effect::Refraction, reason);
     }
-    let nothing = who(uses, |m| {
-        (!m.transmission.is_zero())
-            .then(|| " has the index of what surrounds it, 1: light does not notice it".to_owned())
+    let nothing = who(uses, ["has", "have"], |m| {
+        let transmits = !m.transmission.is_zero();
+        transmits.then(|| " the index of what is around, 1: light does not notice".to_owned())
     });
     Decision::off(Effect::Refraction, nothing.unwrap_or_else(|| "no reachable material transmits".to_owned()))
 }
@@ -163,7 +171,7 @@ fn texture_names(m: &Material) -> Option<String> {
             names.push(&texture.name);
         }
     }
-    (!names.is_empty()).then(|| format!(" names {}", few(&names)))
+    (!names.is_empty()).then(|| format!(" {}", few(&names)))
 }
 
 fn indirect(scene: &Scene) -> Decision {

@@ -3,8 +3,7 @@
 use super::Effect;
 use super::decide::{is_specular, who};
 use super::decision::{Cause, Decision, few};
-use super::placed::Use;
-use crate::description::{Light, Material, Photons, Rgb, Scene, Source};
+use crate::description::{Light, Material, Photons, Rgb, Scene, Source, Use};
 
 /// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
 pub(super) struct Lights<'a> {
@@ -82,7 +81,7 @@ impl<'a> Lights<'a> {
     }
 
     pub fn highlights(&self, uses: &[Use]) -> Decision {
-        let shiny = who(uses, |m| (!m.specular.is_zero()).then(|| " is specular".to_owned()));
+        let shiny = who(uses, ["is", "are"], |m| (!m.specular.is_zero()).then(|| " specular".to_owned()));
         match shiny {
             Some(_) if self.all().is_empty() => Decision::off(Effect::Highlights, "the scene has no light"),
             found => Decision::of(Effect::Highlights, found, "no reachable material has a `specular` layer"),

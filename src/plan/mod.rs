@@ -10,7 +10,6 @@ mod effect;
 mod lighting;
 mod overrides;
 mod photons;
-mod placed;
 mod until;
 
 pub use crate::description::Antialiasing;
@@ -21,7 +20,6 @@ pub use decision::{Cause, Decision, few};
 pub use effect::Effect;
 pub use overrides::{Overrides, Refused};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
-pub use placed::used_materials;
 use std::borrow::Cow;
 use std::ops::Range;
 pub use until::{FEWEST, MOST_PASSES, Until};

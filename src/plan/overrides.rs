@@ -141,7 +141,7 @@ impl Overrides {
         if carried.behind.any(set) {
             over(true, format!("{}; seen by way of {list} only (--only)", edited.reason))
         } else if carried.anywhere(effect) {
-            over(true, format!("{}; for indirect light only (--only)", edited.reason))
+            over(true, format!("{}; for the light of {list} only (--only)", edited.reason))
         } else {
             over(false, format!("left out (--only {list}); else on: {}", own.reason))
         }

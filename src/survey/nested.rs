@@ -55,6 +55,7 @@ impl Nested {
         let reason = match self.pairs.as_slice() {
             [] => "no two objects that transmit overlap".to_owned(),
             [one] => told(one),
+            [one, _] => format!("{}; and 1 more pair", told(one)),
             [one, rest @ ..] => format!("{}; and {} more pairs", told(one), rest.len()),
         };
         Decision { on: !self.pairs.is_empty(), reason, ..decision.clone() }

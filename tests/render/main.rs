@@ -18,6 +18,6 @@ mod mirrors;
 mod robustness;
 mod scatter;
 mod seen_light;
-pub mod shot;
+pub(crate) mod shot;
 mod stability;
 mod textures;

@@ -1,12 +1,15 @@
-//! The files that a scene names must be there and readable.
+//! The files that a scene names must be there and readable. An image that no placed object's material
+//! names is not read: only a warning.
 
 use super::{Checker, Kind, Severity};
 use crate::description::suggest::nearest;
 use crate::description::tree::Path;
-use std::collections::HashMap;
+use crate::description::used_materials;
+use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
 pub(super) fn check(c: &mut Checker, files: &[(String, Path)]) {
+    let idle = idle_images(c);
     let mut problems: HashMap<&str, Option<String>> = HashMap::new();
     for (path, place) in files {
         if path.is_empty() {
@@ -15,9 +18,18 @@ pub(super) fn check(c: &mut Checker, files: &[(String, Path)]) {
         }
         let problem = problems.entry(path).or_insert_with(|| problem(&c.folder.join(path)));
         if let Some(message) = problem.clone() {
-            c.report(Severity::Error, Kind::Io, &[place], message, None);
+            let severity = if idle.contains(place) { Severity::Warning } else { Severity::Error };
+            c.report(severity, Kind::Io, &[place], message, None);
         }
     }
+}
+
+/// The places of images that are not read.
+fn idle_images(c: &Checker) -> Vec<Path> {
+    let used = used_materials(c.scene);
+    let materials = c.scene.materials.iter().filter(|(name, _)| used.contains(name));
+    let read: HashSet<&str> = materials.flat_map(|(_, material)| material.textures()).collect();
+    c.scene.textures.names().filter(|name| !read.contains(name)).map(Path::image_texture).collect()
 }
 
 /// Why a file cannot be read.

@@ -4,7 +4,7 @@
 use super::objects::list;
 use super::{Checker, Report, Severity};
 use crate::description::tree::Path;
-use crate::description::{Object, Shape, Source};
+use crate::description::{Object, Shape};
 use std::collections::HashSet;
 
 pub(super) fn check(c: &mut Checker) {
@@ -14,16 +14,8 @@ pub(super) fn check(c: &mut Checker) {
     for object in scene.objects.iter().chain(scene.definitions.iter().map(|(_, object)| object)) {
         collect(object, &mut materials, &mut definitions);
     }
-    let textures: HashSet<&str> = scene
-        .materials
-        .iter()
-        .flat_map(|(_, m)| {
-            let sources = [&m.diffuse, &m.specular, &m.reflection, &m.transmission, &m.emission];
-            let weights = sources.into_iter().filter_map(Source::texture).map(|t| t.name.as_str());
-            let normal = m.normal_map.iter().map(|map| map.texture.as_str());
-            weights.chain(normal).chain(m.bump_map.iter().map(|map| map.texture.as_str())).collect::<Vec<_>>()
-        })
-        .collect();
+    let textures: HashSet<&str> =
+        scene.materials.iter().flat_map(|(_, material)| material.textures()).collect();
     unused(c, "textures", "texture", &textures);
     unused(c, "materials", "material", &materials);
     unused(c, "definitions", "definition", &definitions);

@@ -1,0 +1,106 @@
+//! What is off is free: its stages do not run, its files are not read, its memory is not held.
+
+use super::lab::{BALL, LAMP, own_plan, render, scene, shot, without};
+use crate::render::shot::Picture;
+use terrarium::plan::{Effect, Overrides};
+
+/// A folder with one small image.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let image = image::RgbImage::from_fn(8, 8, |x, y| image::Rgb([100 + 10 * x as u8, 120, 200 + y as u8]));
+    image.save(folder.path().join("a.png")).expect("an image");
+    folder
+}
+
+/// `material` on a box, with textures of an image that is there and of one that is not.
+fn mapped(material: &str, of_box: &str) -> String {
+    let materials = format!(r#""mapped": ({material}), "elsewhere": (diffuse: texture("missing"))"#);
+    let object = format!(r#"(shape: box(), material: "{of_box}")"#);
+    scene("", &materials, LAMP, &object).replace(
+        "textures: {",
+        r#"textures: { "there": image(path: "a.png"), "missing": image(path: "none.png"),"#,
+    )
+}
+
+fn render_in(folder: &std::path::Path, text: &str, overrides: &Overrides) -> Picture {
+    shot(text, overrides).folder(folder).render()
+}
+
+#[test]
+fn maps_that_are_left_out_or_unreachable_are_not_read() {
+    let folder = folder();
+    let (whole, none) = (Overrides::default(), 0);
+    let relief = [
+        (Effect::NormalMaps, r#"diffuse: 0.5, normal_map: (texture: "there")"#),
+        (Effect::BumpMaps, r#"diffuse: 0.5, bump_map: (texture: "there", height_m: 0.1)"#),
+    ];
+    for (effect, material) in relief {
+        let text = mapped(material, "mapped");
+        let (on, off) =
+            (render_in(folder.path(), &text, &whole), render_in(folder.path(), &text, &without(&[effect])));
+        assert_eq!((on.rendered.files.len(), off.rendered.files.len()), (1, none), "{effect}");
+        assert!(on.rendered.stats.memory.textures_bytes > 0);
+        assert_eq!(off.rendered.stats.memory.textures_bytes, 0);
+    }
+    let text = mapped(r#"diffuse: texture("there")"#, "mapped");
+    assert_eq!(render_in(folder.path(), &text, &whole).rendered.files.len(), 1);
+    // The mean of an image is found by reading it, and is all that is kept.
+    let mean = render_in(folder.path(), &text, &without(&[Effect::Textures]));
+    assert_eq!((mean.rendered.files.len(), mean.rendered.stats.memory.textures_bytes), (1, 0));
+    let unreachable = render_in(folder.path(), &mapped(r#"diffuse: texture("there")"#, "matt"), &whole);
+    assert!(unreachable.rendered.files.is_empty());
+}
+
+#[test]
+fn without_mirrors_and_glass_there_are_no_specular_rays_and_no_photon_stages() {
+    let picture = render(&scene("", "", LAMP, ""), &Overrides::default());
+    let stats = &picture.rendered.stats;
+    assert_eq!(
+        (stats.rays.reflection, stats.rays.refraction, stats.rays.diffuse, stats.rays.probe),
+        (0, 0, 0, 0)
+    );
+    assert!(stats.photons.photons.is_none() && stats.photons.indirect_photons.is_none());
+    assert_eq!(stats.memory.photons_bytes, 0);
+    let dark = render(&scene("", "", "", ""), &Overrides::default());
+    assert_eq!(dark.rendered.stats.rays.shadow, 0);
+}
+
+#[test]
+fn caustics_that_are_left_out_send_no_photons() {
+    let text = scene("indirect: true, indirect_by: photons,", "", LAMP, BALL);
+    let stats = render(&text, &without(&[Effect::Caustics])).rendered.stats;
+    assert!(stats.photons.photons.is_none());
+    // Indirect light is not touched by it.
+    let whole = render(&text, &Overrides::default()).rendered.stats;
+    let stored = |stats: &terrarium::render::Stats| stats.photons.indirect_photons.as_ref().map(|p| p.stored);
+    assert!(stored(&stats).is_some_and(|n| n > 0) && stored(&stats) == stored(&whole));
+}
+
+/// H14: the medium that is around is not there.
+#[test]
+fn a_ball_of_the_index_around_it_is_invisible() {
+    let air = r#""air": (transmission: 1, ior: 1)"#;
+    let ball = r#"(shape: sphere(radius: 0.5, center: (0, 0.6, 0)), material: "air")"#;
+    let (with, none) = (scene("", air, LAMP, ball), scene("", air, LAMP, ""));
+    assert!(!own_plan(&with).is_on(Effect::Caustics));
+    let with = render(&with, &Overrides::default());
+    assert!(with.rendered.stats.photons.photons.is_none());
+    assert!(with.bits() == render(&none, &Overrides::default()).bits());
+
+    // Water in water: what the camera sees through it is the same to rounding.
+    let water =
+        r#""water": (transmission: 1, ior: 1.333), "drop": (transmission: 1, ior: 1.333, priority: -1)"#;
+    let pool =
+        r#"(shape: box(size: (1.6, 1, 1.6)), material: "water", transform: [translate((0, 0.51, 0))])"#;
+    let drop = r#", (shape: sphere(radius: 0.3, center: (0, 0.5, 0)), material: "drop")"#;
+    let text = |objects: &str| scene("antialiasing: none, photons: off,", water, LAMP, objects);
+    let with = render(&text(&format!("{pool}{drop}")), &Overrides::default());
+    let none = render(&text(pool), &Overrides::default());
+    let brightest = none.grey().into_iter().fold(0.0, f64::max);
+    for (a, b) in with.grey().iter().zip(none.grey()) {
+        // Branches lighter than 1/256 survive by chance, and not by the same.
+        assert!((a - b).abs() <= 1e-5 * b + brightest / 128.0, "{a} and {b}");
+    }
+    let same = with.grey().iter().zip(none.grey()).filter(|(a, b)| (*a - b).abs() <= 1e-5 * b).count();
+    assert!(same as f64 > 0.9 * with.grey().len() as f64, "{same}");
+}
