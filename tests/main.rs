@@ -1,6 +1,8 @@
 //! All tests of the program and library as a user sees them, in one binary: linking is most of what
 //! a test file costs. `cargo test --release --test all render::light` runs one theme.
 
+#[path = "accuracy/main.rs"]
+mod accuracy;
 mod assets;
 mod command_line;
 mod forecast;

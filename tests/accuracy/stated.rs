@@ -1,0 +1,107 @@
+//! Renders of scenes whose truth is known from many more passes of another seed.
+
+use super::super::render::shot::focused;
+use terrarium::description::Loaded;
+use terrarium::measure::compare;
+use terrarium::plan::Until;
+use terrarium::render::{self, Options, RenderError, Silent};
+
+/// A caustic, soft shadows and edges.
+const GLASS: &str = r#"(
+    camera: (eye: (0, 2.5, 5), target: (0, 0.3, 0), fov_deg: 40),
+    image: (width: 64, height: 48),
+    photons: progressive(count: 4000),
+    materials: {
+        "floor": (diffuse: 0.6),
+        "glass": (transmission: 1, ior: 1.5),
+        "red": (diffuse: (0.6, 0.1, 0.1)),
+    },
+    lights: { "lamp": sphere(center: (-2, 4, 1), radius: 0.4, radiance: 60) },
+    objects: [
+        (shape: quad(size: (8, 8)), material: "floor"),
+        (shape: sphere(radius: 0.7, center: (-0.5, 0.8, 0)), material: "glass"),
+        (shape: box(size: (0.7, 0.7, 0.7), center: (1.1, 0.35, 0.3)), material: "red"),
+    ],
+)"#;
+
+/// A room with light between its walls.
+const ROOM: &str = r#"(
+    camera: (eye: (0, 0, 2.9), target: (0, 0, 0), fov_deg: 60),
+    image: (width: 64, height: 48),
+    indirect: true,
+    photons: progressive(count: 4000),
+    materials: { "white": (diffuse: 0.6), "red": (diffuse: (0.6, 0.1, 0.1)) },
+    lights: { "lamp": quad(corner: (-0.5, 1.49, -0.5), edge_u: (1, 0, 0), edge_v: (0, 0, 1), radiance: 8) },
+    objects: [
+        (shape: box(size: (3, 3, 6)), material: "white"),
+        (shape: sphere(radius: 0.5, center: (0.4, -1, 0)), material: "red"),
+    ],
+)"#;
+
+fn options(passes: u32, seed: u64) -> Options {
+    Options { passes: Some(0..passes), seed: Some(seed), ..Options::default() }
+}
+
+fn rendered(loaded: &Loaded, options: &Options) -> render::Rendered {
+    render::render(loaded, options, &Silent).expect("a render")
+}
+
+/// Of 10 renders at each of two numbers of passes the stated interval holds the true error of 8 or more, and
+/// the stated error is near it on average. `make honesty` does this with more scenes and seeds.
+#[test]
+fn the_stated_error_is_the_true_one() {
+    for (name, text) in [("glass", GLASS), ("room", ROOM)] {
+        let loaded = focused(text).load();
+        let truth = rendered(&loaded, &options(1500, 1000)).image;
+        for passes in [8, 24] {
+            let (mut held, mut ratio) = (0, 0.0);
+            let mut said = String::new();
+            for seed in 0..10 {
+                let found = rendered(&loaded, &options(passes, seed));
+                let real = compare(&found.image, &truth).expect("one size").relative_rms;
+                let stated = found.stats.accuracy.expect("several passes");
+                held += u32::from((stated.interval[0]..stated.interval[1]).contains(&real));
+                ratio += stated.error / real / 10.0;
+                said += &format!("\n{real:.4} {stated:?}");
+            }
+            assert!(held >= 8 && (0.8..1.25).contains(&ratio), "{name}, {passes}: {held}, {ratio:.3}{said}");
+        }
+    }
+}
+
+/// A render that is to reach an error reaches it, and not by much more than it must.
+#[test]
+fn rendering_to_an_error_reaches_it() {
+    let loaded = focused(GLASS).load();
+    let truth = rendered(&loaded, &options(1500, 1000)).image;
+    let until = Until { error: Some(0.05), seconds: None };
+    let reached = (0..5u64).filter(|&seed| {
+        let found = rendered(&loaded, &Options { seed: Some(seed), until, ..Options::default() });
+        let real = compare(&found.image, &truth).expect("one size").relative_rms;
+        (0.025..0.055).contains(&real)
+    });
+    assert!(reached.count() >= 4);
+}
+
+/// A second is a second, whatever the scene could take.
+#[test]
+fn rendering_for_a_time_keeps_to_it() {
+    let loaded = focused(GLASS).load();
+    let began = std::time::Instant::now();
+    let until = Until { error: None, seconds: Some(1.0) };
+    let found = rendered(&loaded, &Options { until, began: Some(began), ..Options::default() });
+    assert!(found.stats.passes > 1 && found.stats.accuracy.is_some());
+    // Other tests run at the same time.
+    assert!((0.5..3.0).contains(&began.elapsed().as_secs_f64()), "{:?}", began.elapsed());
+}
+
+/// What could never tell its error is not rendered to one.
+#[test]
+fn errors_that_no_pass_shows_are_refused() {
+    for (from, to) in [("image:", "antialiasing: grid(3), image:"), ("progressive(count: 4000)", "classic()")] {
+        let loaded = focused(GLASS.replace(from, to)).load();
+        let until = Until { error: Some(0.1), seconds: None };
+        let refused = render::render(&loaded, &Options { until, ..Options::default() }, &Silent);
+        assert!(matches!(refused, Err(RenderError::Invalid(message)) if message.contains("progressive")));
+    }
+}
