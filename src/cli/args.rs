@@ -142,7 +142,7 @@ pub struct Work {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Further layers of the EXR: albedo, normal, depth, position, object_id, samples, direct,
-    /// reflection, refraction, caustic, indirect, photons, photon_density, variance, edges
+    /// reflection, refraction, caustic, indirect, photons, photon_density, variance, noise, bias, edges
     #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
     pub aov: Vec<Aov>,
 }

@@ -34,6 +34,8 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
             Aov::Photons => (&RGB, Layer::Photons),
             Aov::PhotonDensity => (&["Y"], Layer::PhotonDensity),
             Aov::Variance => (&RGB, Layer::Variance),
+            Aov::Noise => (&RGB, Layer::Noise),
+            Aov::Bias => (&RGB, Layer::Bias),
             Aov::Edges => (&["Y"], Layer::Edges),
         };
         add(aov.name(), channels, layer);

@@ -64,11 +64,13 @@ pub enum Aov {
     Photons,
     PhotonDensity,
     Variance,
+    Noise,
+    Bias,
     Edges,
 }
 
 impl Aov {
-    pub const ALL: [Aov; 15] = [
+    pub const ALL: [Aov; 17] = [
         Aov::Albedo,
         Aov::Normal,
         Aov::Depth,
@@ -83,6 +85,8 @@ impl Aov {
         Aov::Photons,
         Aov::PhotonDensity,
         Aov::Variance,
+        Aov::Noise,
+        Aov::Bias,
         Aov::Edges,
     ];
 
@@ -103,6 +107,8 @@ impl Aov {
             Aov::Photons => "photons",
             Aov::PhotonDensity => "photon_density",
             Aov::Variance => "variance",
+            Aov::Noise => "noise",
+            Aov::Bias => "bias",
             Aov::Edges => "edges",
         }
     }
@@ -140,7 +146,8 @@ impl Options {
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
             split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
-            variance: any(&[Aov::Variance]),
+            variance: any(&[Aov::Variance, Aov::Noise]),
+            bias: any(&[Aov::Bias]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
             probes: Some(Probes::of(width, height)),
         }
@@ -148,9 +155,17 @@ impl Options {
 
     /// Refuses what this plan cannot give.
     pub(super) fn check(&self, plan: &Plan) -> Result<(), RenderError> {
-        if self.aovs.contains(&Aov::Variance) && plan.passes < 2 {
+        let by_passes = [Aov::Variance, Aov::Noise].into_iter().find(|aov| self.aovs.contains(aov));
+        if let Some(aov) = by_passes.filter(|_| plan.passes < 2) {
+            let name = aov.name();
+            return Err(RenderError::Invalid(format!(
+                "the {name} of a single pass is unknown: ask for `--passes 2` or more with `--aov {name}`"
+            )));
+        }
+        let adaptive = matches!(plan.antialiasing, Antialiasing::Adaptive { .. });
+        if self.aovs.contains(&Aov::Bias) && adaptive {
             return Err(RenderError::Invalid(
-                "the variance of a single pass is unknown: ask for `--passes 2` or more with `--aov variance`"
+                "the `bias` layer is not there with `antialiasing: adaptive()`, whose samples belong to several pixels"
                     .to_owned(),
             ));
         }

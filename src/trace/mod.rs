@@ -120,6 +120,7 @@ pub fn layers(wants: &Wants) -> Layers {
         split: wants.split,
         variance: wants.variance,
         photons: wants.photons,
+        bias: wants.bias,
         probes: wants.probes,
     }
 }

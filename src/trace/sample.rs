@@ -13,6 +13,8 @@ pub struct Wants {
     pub variance: bool,
     /// Photons as dots, and their density.
     pub photons: bool,
+    /// What the density estimate's blur adds, at every pixel.
+    pub bias: bool,
     /// Pixels that the picture's error is estimated from.
     pub probes: Option<Probes>,
 }

@@ -39,6 +39,7 @@ pub struct Layers {
     pub split: bool,
     pub variance: bool,
     pub photons: bool,
+    pub bias: bool,
     pub probes: Option<Probes>,
 }
 
@@ -82,6 +83,8 @@ pub struct Tile {
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
     photons: Vec<PhotonSums>,
+    /// Sums of the estimated bias, and of the passes that looked at it.
+    bias: Vec<(DVec3, u32)>,
     /// One a square; empty where a square's probe is another tile's.
     probes: Vec<Probe>,
     placed: Option<Probes>,
@@ -110,6 +113,7 @@ impl Tile {
             first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
             photons: vec![PhotonSums::default(); if_kept(layers.photons)],
+            bias: vec![(DVec3::ZERO, 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
         }
@@ -146,6 +150,10 @@ impl Tile {
         if let Some(placed) = self.placed.filter(|placed| placed.is_probe(x, y)) {
             let slot = placed.slot([x, y], [self.x, self.y], self.width);
             self.probes[slot].add(x, y, value);
+        }
+        if let (Some((sum, looked)), Some([caustic, indirect])) = (self.bias.get_mut(i), value.bias) {
+            *sum += caustic + indirect;
+            *looked += 1;
         }
         if let Some(split) = self.split.get_mut(i) {
             split.direct += value.direct;
@@ -188,6 +196,10 @@ pub enum Layer {
     PhotonDensity,
     /// Of the mean over passes; needs two passes or more.
     Variance,
+    /// The standard deviation of the mean over passes; needs two passes or more.
+    Noise,
+    /// What the density estimate's blur adds to the mean, where that can be told.
+    Bias,
     Albedo,
     Normal,
     Position,
@@ -211,6 +223,7 @@ impl Tile {
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
             + self.photons.len() * size_of::<PhotonSums>()
+            + self.bias.len() * size_of::<(DVec3, u32)>()
             + self.probes.len() * size_of::<Probe>()
     }
 
@@ -239,6 +252,11 @@ impl Tile {
             Layer::Variance => {
                 let squares = self.squares.get(i).copied().unwrap_or_default();
                 squares / (passes * (passes - 1.0).max(1.0))
+            }
+            Layer::Noise => self.value(x, y, Layer::Variance, most).map(f64::sqrt),
+            Layer::Bias => {
+                let (sum, looked) = self.bias.get(i).copied().unwrap_or_default();
+                sum / f64::from(looked.max(1))
             }
             Layer::Albedo => first().albedo / passes,
             Layer::Normal => first().normal / passes,

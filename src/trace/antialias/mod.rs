@@ -35,7 +35,7 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
         let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
         let probe = is_probe(tracer, x, y);
         let mut average = Average::of(wants(tracer, probe));
-        look(tally, probe, pass);
+        look(tally, probe, tracer.wants.bias, pass);
         for i in 0..n * n {
             let index = pass.wrapping_mul(n * n).wrapping_add(i);
             let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
@@ -62,8 +62,8 @@ const LOOK: u32 = 2;
 const PAIR: u32 = 4;
 
 /// Begins to look at the bias, if that is due.
-fn look(tally: &mut Tally, probe: bool, pass: u32) {
-    tally.probing = probe && pass % LOOK == 0;
+fn look(tally: &mut Tally, probe: bool, bias: bool, pass: u32) {
+    tally.probing = (probe || bias) && pass % LOOK == 0;
     tally.bias = Default::default();
 }
 
@@ -82,7 +82,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let [dx, dy] = sequence.pair();
         let film = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
         let probe = is_probe(tracer, x, y);
-        look(tally, probe, pass);
+        look(tally, probe, tracer.wants.bias, pass);
         let sample = tracer.sample(film, sequence, scratch, tally);
         let mut average = Average::of(wants(tracer, probe));
         add_finite(&mut average, &sample, Place { x, y, pass }, tally);
