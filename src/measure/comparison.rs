@@ -181,7 +181,7 @@ fn colour(
     let relative = relative(image, reference);
     let weights: &[f64] = if values.mean_reference.len() == 3 { &LUMINANCE } else { &[1.0] };
     let mean = values.mean_reference.iter().zip(weights).map(|(c, weight)| c * weight).sum::<f64>();
-    let auto = if encoded || !(mean > 0.0) { 0.0 } else { libm::log2(EXPOSED_TO / mean) };
+    let auto = if encoded || mean.is_nan() || mean <= 0.0 { 0.0 } else { libm::log2(EXPOSED_TO / mean) };
     let exposure_ev = settings.exposure_ev.unwrap_or(auto);
     let (a, r) = (Shown::new(image, width, exposure_ev), Shown::new(reference, width, exposure_ev));
     let psnr_db = psnr_db(&a, &r);

@@ -113,8 +113,8 @@ pub fn pixels_over(image: &FileLayer, reference: &FileLayer, limit: f64) -> usiz
     let pixels = pairs.first().map_or(0, |(a, _)| a.samples.len());
     let over = |(a, r): &(&Channel, &Channel), at: usize| {
         let (i, r) = (a.samples.get(at), r.samples.get(at));
-        // a NaN compares as over the limit; values that are the same are not
-        !same(i, r) && !((i - r).abs() <= limit)
+        let error = (i - r).abs();
+        !same(i, r) && (error.is_nan() || error > limit)
     };
     (0..pixels).into_par_iter().filter(|at| pairs.iter().any(|pair| over(pair, *at))).count()
 }
