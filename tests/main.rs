@@ -3,6 +3,8 @@
 
 mod assets;
 mod command_line;
+#[path = "diff/main.rs"]
+mod diff;
 mod forecast;
 mod guide;
 mod layers;
