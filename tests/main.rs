@@ -5,6 +5,8 @@
 mod accuracy;
 mod assets;
 mod command_line;
+#[path = "diff/main.rs"]
+mod diff;
 mod forecast;
 mod guide;
 mod layers;

@@ -1,5 +1,6 @@
 //! The arguments, as typed.
 
+use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use terrarium::plan::{Effect, Overrides, Until};
@@ -12,8 +13,9 @@ Examples:
   terrarium plan scene.ron
   terrarium check scenes/*.ron
   terrarium convert scene.ron scene.toml
+  terrarium diff image.exr reference.exr --max-e 1%
 
-Exit codes: 0 done; 1 the render failed; 2 the scene is invalid or the call is wrong;
+Exit codes: 0 done; 1 the render failed, or diff found a difference; 2 the scene is invalid or the call is wrong;
 3 a file can't be read; 4 an output can't be written (tested before the first ray).";
 
 const RENDER_EXAMPLES: &str = "\
@@ -65,6 +67,9 @@ pub enum Command {
     Plan(Box<PlanArgs>),
     /// Report every mistake in scene files, without rendering
     Check(CheckArgs),
+    /// Compare an image with a reference: metrics, limits, heat maps
+    #[command(after_help = DIFF_EXAMPLES)]
+    Diff(Box<DiffArgs>),
     /// Rewrite a scene in the other format, RON or TOML
     Convert(ConvertArgs),
     /// Print the JSON Schema of scenes, for completion in editors

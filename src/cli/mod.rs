@@ -6,6 +6,9 @@
 mod args;
 mod check;
 mod convert;
+mod diff;
+mod diff_args;
+mod diff_text;
 mod exit;
 mod measure;
 mod plan;
@@ -55,6 +58,7 @@ fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
         Command::Plan(args) => plan::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),
         Command::Convert(args) => convert::run(args, terminal),
+        Command::Diff(args) => diff::run(args, terminal),
         Command::Schema => {
             let schema = terrarium::description::json_schema();
             report::print(&format!("{schema:#}\n"))

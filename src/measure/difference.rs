@@ -1,5 +1,8 @@
 //! How far one image is from another.
 
+use super::read::{Channel, FileLayer, Kind, Samples};
+use super::relative::relative;
+use super::values::values;
 use crate::output::Image;
 
 /// The difference of an image from a reference.
@@ -14,44 +17,27 @@ pub struct Difference {
     pub same: bool,
 }
 
-/// Rec. 709.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
-/// 0.01/0.18².
-const FLOOR: f64 = 0.31;
-
 /// The colours of two images of one size; `None` where the sizes or channels differ. Values that are not
-/// finite make the difference infinite.
+/// finite in one of them make the difference infinite.
 pub fn compare(image: &Image, reference: &Image) -> Option<Difference> {
-    let (a, r) = (image.layers.first()?, reference.layers.first()?);
     if (image.width, image.height) != (reference.width, reference.height) {
         return None;
     }
-    let pairs: Vec<(&[f32], &[f32])> =
-        a.channels.iter().zip(&r.channels).map(|((_, a), (_, r))| (a.as_slice(), r.as_slice())).collect();
-    if pairs.len() != a.channels.len() || pairs.len() != r.channels.len() {
-        return None;
-    }
-    let mean =
-        |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;
-    let luminance = |side: &dyn Fn(&(&[f32], &[f32])) -> f64| -> f64 {
-        pairs.iter().zip(LUMINANCE).map(|(pair, weight)| weight * side(pair)).sum()
+    let colour = |image: &Image| -> Option<FileLayer> {
+        let channels = image.layers.first()?.channels.iter();
+        let channels = channels
+            .map(|(name, values)| Channel { name: name.clone(), samples: Samples::F32(values.clone()) });
+        Some(FileLayer { name: String::new(), kind: Kind::Colour, channels: channels.collect() })
     };
-    let (of_image, m) = (luminance(&|pair| mean(pair.0)), luminance(&|pair| mean(pair.1)));
-    let floor = FLOOR * m * m;
-    let (mut sum, mut count, mut same) = (0.0, 0usize, true);
-    for (a, r) in pairs.iter().flat_map(|(a, r)| a.iter().zip(*r)) {
-        same &= a.to_bits() == r.to_bits();
-        count += 1;
-        let (i, r) = (f64::from(*a), f64::from(*r));
-        let square = (i - r) * (i - r);
-        if square != 0.0 {
-            let relative = square / (r * r + floor);
-            sum += if relative.is_nan() { f64::INFINITY } else { relative };
-        }
-    }
-    let mean_change = if of_image == m { 0.0 } else { of_image / m - 1.0 };
-    Some(Difference { relative_rms: (sum / count.max(1) as f64).sqrt(), mean_change, same })
+    let (image, reference) = (colour(image)?, colour(reference)?);
+    let values = values(&image, &reference, image.channels.first()?.samples.len())?;
+    let relative = relative(image.colour()?, reference.colour()?);
+    let sound = values.non_finite.unmatched == 0;
+    Some(Difference {
+        relative_rms: if sound { relative.relative_rms } else { f64::INFINITY },
+        mean_change: relative.mean_ratio - 1.0,
+        same: values.same,
+    })
 }
 
 #[cfg(test)]

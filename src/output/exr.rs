@@ -66,7 +66,7 @@ pub fn write(
 }
 
 /// The channel's name in the file.
-fn spelling(layer: &str, channel: &str) -> String {
+pub fn spelling(layer: &str, channel: &str) -> String {
     match layer {
         "" | "depth" => channel.to_string(),
         "normal" => format!("N.{channel}"),

@@ -5,8 +5,8 @@
 //! 4 × 4 pixels of the reference is the reference.
 
 use crate::render::shot::{Picture, Shot, focused as shot};
-use exr::prelude::read_first_flat_layer_from_file;
 use std::path::Path;
+use terrarium::measure::{read::load, relative};
 
 const SIDE: usize = 64;
 
@@ -25,30 +25,21 @@ fn scene(name: &str, more: &str) -> Shot {
 /// Means of 4 × 4 pixels of the reference.
 fn reference(name: &str) -> Vec<[f64; 3]> {
     let path = root().join(format!("tests/references/{name}.exr"));
-    let file = read_first_flat_layer_from_file(path).expect("the reference is in the repository");
-    let channel = |name: &str| -> Vec<f32> {
-        let list = &file.layer_data.channel_data.list;
-        let channel = list.iter().find(|c| c.name == *name).expect("it is there");
-        channel.sample_data.values_as_f32().collect()
-    };
-    let channels = ["R", "G", "B"].map(channel);
+    let file = load(&path).expect("the reference is in the repository");
+    let channels = file.layers[0].colour().expect("a picture");
     assert_eq!(channels[0].len(), 256 * 256);
     let mean = |channel: &[f32], pixel: usize| {
         let (x, y) = (4 * (pixel % SIDE), 4 * (pixel / SIDE));
         (0..16).map(|i| f64::from(channel[(y + i / 4) * 256 + x + i % 4])).sum::<f64>() / 16.0
     };
-    (0..SIDE * SIDE).map(|pixel| [0, 1, 2].map(|c| mean(&channels[c], pixel))).collect()
+    (0..SIDE * SIDE).map(|pixel| [0, 1, 2].map(|c| mean(channels[c], pixel))).collect()
 }
 
-/// mean((I − R)²/(R² + 0.01)) without the 0.1 % of the pixels that are worst.
+/// relMSE without the 0.1 % of the pixels that are worst.
 fn trimmed(picture: &Picture, reference: &[[f64; 3]]) -> f64 {
-    let error = |(i, r): (&[f32; 3], &[f64; 3])| {
-        (0..3).map(|c| (f64::from(i[c]) - r[c]).powi(2) / (r[c] * r[c] + 0.01)).sum::<f64>() / 3.0
-    };
-    let mut errors: Vec<f64> = picture.rgb().iter().zip(reference).map(error).collect();
-    errors.sort_by(f64::total_cmp);
-    errors.truncate((errors.len() as f64 * 0.999).round() as usize);
-    errors.iter().sum::<f64>() / errors.len() as f64
+    let reference = [0, 1, 2].map(|c| reference.iter().map(|pixel| pixel[c] as f32).collect::<Vec<f32>>());
+    let image = ["R", "G", "B"].map(|name| picture.channel("", name));
+    relative(image, reference.each_ref().map(Vec::as_slice)).rel_mse_trimmed
 }
 
 fn sum(pixels: &[[f64; 3]]) -> f64 {
