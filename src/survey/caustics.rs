@@ -88,21 +88,23 @@ fn significant(x: f64) -> String {
 
 /// `dielectric, ior 1.5`, `mirror`, or several.
 fn kinds(world: &World, instances: &[u32]) -> String {
-    let mut kinds: Vec<String> = Vec::new();
+    let mut iors: Vec<f64> = Vec::new();
+    let mut mirrors = false;
     for &instance in instances {
         let rank = world.instances[instance as usize].rank;
-        let mirrors = objects::materials(world, instance).any(|m| !m.reflection.is_zero());
-        let dielectric =
-            (rank != 0).then(|| format!("dielectric, ior {}", world.media[rank as usize - 1].ior.ior(None)));
-        for kind in dielectric.into_iter().chain(mirrors.then(|| "mirror".to_owned())) {
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
+        if rank != 0 {
+            let ior = world.media[rank as usize - 1].ior.ior(None);
+            if !iors.contains(&ior) {
+                iors.push(ior);
             }
         }
+        mirrors |= objects::materials(world, instance).any(|m| !m.reflection.is_zero());
     }
-    let more = kinds.len().saturating_sub(3);
-    kinds.truncate(3);
-    kinds.join("; ") + &if more > 0 { format!("; and {more} more kinds") } else { String::new() }
+    let told: Vec<String> = iors.iter().take(3).map(f64::to_string).collect();
+    let more = if iors.len() > 3 { format!(" and {} more", iors.len() - 3) } else { String::new() };
+    let dielectric = (!iors.is_empty()).then(|| format!("dielectric, ior {}{more}", told.join(", ")));
+    let kinds: Vec<String> = dielectric.into_iter().chain(mirrors.then(|| "mirror".to_owned())).collect();
+    kinds.join("; ")
 }
 
 /// The decision on caustics with what has been seen of lights and objects.
@@ -129,19 +131,23 @@ pub(super) fn refined(world: &World, decision: &Decision, lights: &[LightReach])
     Decision { reason, ..decision.clone() }
 }
 
-/// The objects on which caustics can be seen, the largest first.
-fn receivers(world: &World) -> Vec<String> {
-    let receives =
-        |i: u32| world.instances[i as usize].visible && objects::materials(world, i).any(objects::receives);
-    let size = |i: u32| {
-        let instance = &world.instances[i as usize];
-        let bounds = World::placed_bounds(world.geometry(i), &instance.placement);
-        f64::from(bounds.extent().length())
-    };
-    let mut found: Vec<(u32, f64)> =
-        (0..world.instances.len() as u32).filter(|&i| receives(i)).map(|i| (i, size(i))).collect();
-    found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    objects::names(world, found.into_iter().map(|(i, _)| i))
+/// The objects on which caustics can be seen, the one with the largest part first.
+fn receivers(world: &World) -> Vec<&str> {
+    let by_binding: Vec<bool> = world
+        .bindings
+        .iter()
+        .map(|ids| ids.iter().any(|id| objects::receives(&world.materials[id.0 as usize])))
+        .collect();
+    // The square of the largest part's extent, by object.
+    let mut sizes = vec![0.0f32; world.object_names.len()];
+    for instance in world.instances.iter().filter(|i| i.visible && by_binding[i.binding as usize]) {
+        let geometry = &world.geometries[instance.geometry as usize];
+        let size = &mut sizes[instance.object as usize];
+        *size = size.max(World::placed_bounds(geometry, &instance.placement).extent().length_squared());
+    }
+    let mut found: Vec<usize> = (0..sizes.len()).filter(|&object| sizes[object] > 0.0).collect();
+    found.sort_by(|&a, &b| sizes[b].total_cmp(&sizes[a]).then(a.cmp(&b)));
+    found.into_iter().map(|object| world.object_names[object].as_str()).collect()
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub const CASES: &[super::Case] = &[
     (
         r#"textures: { "t": image(path: "wod.png") }"#,
         &[
-            "2:30: error: textures.t.image.path: `tests/description/wod.png` cannot be read: there is no such file; did you mean `wood.png`?",
+            "2:30: warning: textures.t.image.path: `tests/description/wod.png` cannot be read: there is no such file; did you mean `wood.png`?",
         ],
     ),
     (
