@@ -9,7 +9,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names test lint bench yardstick assets schema install clean help FORCE
+.PHONY: all build renders images names test lint bench yardstick honesty assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -104,6 +104,11 @@ bench:
 yardstick: build
 	@command -v python3 >/dev/null || { echo "make yardstick needs python3" >&2; exit 2; }
 	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/yardstick.py
+
+## honesty: whether renders tell the truth about their error; takes long
+honesty: build
+	@command -v python3 >/dev/null || { echo "make honesty needs python3" >&2; exit 2; }
+	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/honesty.py
 
 ## assets: make the meshes and textures that programs write
 assets: build
