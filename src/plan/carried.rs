@@ -95,3 +95,41 @@ impl Default for Carried {
         Carried::ALL
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn carriers() -> impl Iterator<Item = Effect> {
+        Effect::ALL.into_iter().filter(|effect| effect.carries_light())
+    }
+
+    #[test]
+    fn each_light_belongs_to_one_effect_and_all_of_them_are_the_whole() {
+        let mut whole = Carriers::NONE;
+        for effect in carriers() {
+            let alone = Carried::new(Some(&[effect]), &[], true).first;
+            assert!(!whole.any(alone), "{effect} shares nothing with those before");
+            whole = whole.with(alone);
+        }
+        assert_eq!(whole, Carriers::ALL);
+    }
+
+    #[test]
+    fn behind_mirrors_and_glass_everything_is_carried_or_nothing() {
+        for effect in carriers() {
+            let way = matches!(effect, Effect::Reflection | Effect::Refraction);
+            let behind = Carried::new(Some(&[effect]), &[], true).behind;
+            assert_eq!(behind, if way { Carriers::ALL } else { Carriers::NONE }, "{effect}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_is_carried_nowhere() {
+        for effect in carriers() {
+            let left = Carried::new(None, &[effect], true);
+            assert!(!left.first.any(Carriers::of(effect)) && !left.behind.any(Carriers::of(effect)));
+            assert_eq!(left.first.with(Carriers::of(effect)), Carriers::ALL);
+        }
+    }
+}
