@@ -8,7 +8,7 @@ use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
 use super::summary::{mebibytes, rays};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::Path;
 use std::time::Instant;
 use terrarium::description::Loaded;
 use terrarium::output::hex;
@@ -76,7 +76,7 @@ pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
     Ok(())
 }
 
-fn heading(scene: &PathBuf, loaded: &Loaded, planned: &Planned) -> String {
+fn heading(scene: &Path, loaded: &Loaded, planned: &Planned) -> String {
     let image = &loaded.scene.image;
     let passes = if planned.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", planned.passes) };
     format!("{}: {} × {} pixels, {passes}", scene.display(), image.width, image.height)

@@ -40,7 +40,7 @@ impl Next {
         });
         let more = passes - f64::from(accuracy.passes);
         let by_effect = by_effect.collect();
-        (error > 0.0 && passes.is_finite()).then(|| Next {
+        (error > 0.0 && passes.is_finite()).then_some(Next {
             error,
             passes,
             seconds: more * seconds,

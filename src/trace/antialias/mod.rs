@@ -63,7 +63,7 @@ const PAIR: u32 = 4;
 
 /// Begins to look at the bias, if that is due.
 fn look(tally: &mut Tally, probe: bool, bias: bool, pass: u32) {
-    tally.probing = (probe || bias) && pass % LOOK == 0;
+    tally.probing = (probe || bias) && pass.is_multiple_of(LOOK);
     tally.bias = Default::default();
 }
 
@@ -87,7 +87,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let mut average = Average::of(wants(tracer, probe));
         add_finite(&mut average, &sample, Place { x, y, pass }, tally);
         let value = average.value(1).map(|value| with_bias(value, tally, 1));
-        let pair = (probe && pass % PAIR == 0).then(|| {
+        let pair = (probe && pass.is_multiple_of(PAIR)).then(|| {
             let mut aside = Tally::default();
             let other = tracer.sample(film, sequence.dimension(ANOTHER), scratch, &mut aside);
             (sample.rest() - other.rest()).as_dvec3()
