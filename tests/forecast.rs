@@ -3,7 +3,7 @@
 use super::render::shot::{Shot, focused};
 use std::path::Path;
 use terrarium::plan::Effect;
-use terrarium::render::{self, Options, Planned, Silent, Stats};
+use terrarium::render::{self, Options, Planned, Silent};
 
 const GLASS: &str = r#"(
     camera: (eye: (0, 2, 6), target: (0, 0.8, 0), fov_deg: 40),
@@ -35,10 +35,6 @@ fn planned(shot: &Shot) -> Planned {
     render::plan(&shot.load(), &shot.options, &Silent).expect("a plan")
 }
 
-fn both(shot: &Shot) -> (Planned, Stats) {
-    (planned(shot), shot.render().rendered.stats)
-}
-
 fn near(predicted: u64, real: u64, share: f64) -> bool {
     let (p, r) = (predicted as f64, real as f64);
     (p - r).abs() <= share * r
@@ -50,14 +46,19 @@ fn rays_are_foretold_by_kind() {
     for text in
         [GLASS.to_owned(), GLASS.replace("textures", "antialiasing: grid(2), textures"), MATT.to_owned()]
     {
-        let (planned, stats) = both(&focused(text).passes(4));
-        assert_eq!(planned.samples, stats.samples);
+        // The longer the render, the more of it the pilot looks at.
+        let (planned, stats) =
+            (self::planned(&focused(&text).passes(4000)), focused(&text).passes(4).render().rendered.stats);
+        assert_eq!(planned.samples, 1000 * stats.samples);
         for (kind, predicted, real) in [
             ("shadow", planned.rays.shadow, stats.rays.shadow),
             ("reflection", planned.rays.reflection, stats.rays.reflection),
             ("refraction", planned.rays.refraction, stats.rays.refraction),
         ] {
-            assert!(near(predicted, real, 0.25), "{kind}: {predicted} predicted, {real} traced");
+            assert!(
+                near(predicted, 1000 * real, 0.25),
+                "{kind}: {predicted} predicted, 1000 × {real} traced"
+            );
         }
     }
 }
@@ -65,7 +66,8 @@ fn rays_are_foretold_by_kind() {
 /// Every stage and every effect that runs has its time, and no other has; the whole is that of the stages.
 #[test]
 fn time_is_told_for_what_runs_and_for_nothing_else() {
-    let (planned, stats) = both(&focused(GLASS).passes(4));
+    let (planned, stats) =
+        (self::planned(&focused(GLASS).passes(4000)), focused(GLASS).passes(40).render().rendered.stats);
     let stage = |name: &str| planned.stages.iter().any(|stage| stage.name == name);
     assert!(["plan", "build", "pilot", "photons", "forecast", "trace"].into_iter().all(stage));
     let sum: f64 = planned.stages.iter().map(|stage| stage.seconds).sum();
@@ -85,7 +87,7 @@ fn time_is_told_for_what_runs_and_for_nothing_else() {
         .sum();
     assert!((took / traced - 1.0).abs() < 1e-6, "{took} s by effect, {traced} s by stage");
 
-    let (planned, _) = both(&focused(MATT));
+    let planned = self::planned(&focused(MATT));
     assert!(planned.stages.iter().all(|stage| stage.name != "pilot" && stage.name != "photons"));
     assert!(planned.photons.photons.is_none());
     assert_eq!(planned.prices.of(Effect::Caustics.key()), 0.0);

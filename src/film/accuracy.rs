@@ -3,14 +3,16 @@
 //! The error is E = √ mean((I−R)² / (R² + 0.31·m²)) over pixels and channels, m the mean luminance: relative,
 //! and the same for any exposure. It has two parts.
 //!
-//! *Noise.* Let V(n) be the squared error of the mean of n passes. The mean of the first a of them and of all
-//! n differ by D(a, n), and E[D²] = V(a) − V(n) whatever the correlation between passes, so long as each
-//! part of them is as good as any other of its size: samples that are well distributed over the passes are
-//! not taken for independent ones. With V(n) = c·n^−p the last two such differences give c and p.
+//! *Noise.* Photons of different passes are independent: the squared error of their mean over n passes is
+//! V(n) = s²/n, s² the variance from pass to pass. Samples in a pixel are well distributed over the passes and
+//! better than that: V(n) = s²·n^−p. For p there is how much the mean changed when passes were doubled: the mean
+//! of the first half of them and the mean of all differ by D with E[D²] = V(n/2) − V(n), whatever the passes
+//! have in common, so long as each part of them is as good as any other of its size. Passes beyond a power of
+//! two begin a part of their own, independent of the others until it is full.
 //!
-//! *Bias.* The blur of the density estimate goes as the square of its radius (Silverman 1986, 4.3), so the
-//! estimates at r and r/√2 differ by half of it. Products of two halves of the passes, whose noise is
-//! independent, estimate its square without the noise.
+//! *Bias.* The blur of the density estimate goes as the square of its radius where light is smooth (Silverman
+//! 1986, 4.3), so the estimates at r and r/√2 differ by half of it. Products of two halves of the passes, whose
+//! noise is independent, estimate its square without the noise.
 //!
 //! What no pass can tell is not in it: the depth limit, three colours, facets of meshes, and paths so rare
 //! that none was found.
@@ -54,9 +56,12 @@ const FLOOR: f64 = 0.31;
 const GROUPS: u64 = 16;
 const STUDENT: f64 = 2.131;
 
-/// Rates that are believed: noise of independent passes has 1, that of shrinking radii 2/3, that of samples
-/// well distributed over smooth things up to 3.
-const RATES: [f64; 2] = [0.4, 2.0];
+/// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
+/// those of smooth things in one dimension.
+const RATES: [f64; 2] = [0.6, 3.0];
+
+/// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
+const PHOTON_RATE: f64 = 2.0 / 3.0;
 
 /// The squared bias of progressive passes falls as n^−2(1−α), α = 2/3 (Knaus & Zwicker 2011).
 pub const BIAS_RATE: f64 = 2.0 / 3.0;
@@ -99,9 +104,9 @@ impl Accuracy {
         let variance =
             logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() * (n - 1.0).max(0.0) / n.max(1.0);
         let model = match passes {
-            2..4 => 0.35,
+            2..4 => 0.3,
             4..8 => 0.2,
-            _ => 0.1,
+            _ => 0.12,
         };
         let half = (STUDENT * STUDENT * variance + model * model).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
@@ -113,80 +118,71 @@ impl Accuracy {
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     count: f64,
-    /// By kind: of the last change, and of the one before.
-    late: [f64; 4],
-    before: [f64; 4],
+    /// Variances from pass to pass, by kind.
+    variance: [f64; 3],
+    /// Of the rest: the last change of the mean, and the one before.
+    changes: [f64; 2],
     /// Products of two halves' biases, of caustic, indirect and both; and how many.
     bias: [f64; 3],
     biased: f64,
-    /// Variances from pass to pass, and at one place; and how many.
-    rest: [f64; 2],
-    paired: f64,
+    /// Of probes that know what is left at one place: that, and all of the variance of the rest.
+    place: [f64; 2],
 }
 
 impl Sums {
     fn add(&mut self, probe: &Probe, floor: f64) {
-        let r = probe.mean(Kind::Total);
+        let r = probe.mean_of_all();
         let relative = |square: DVec3| (square / (r * r + floor)).element_sum() / 3.0;
         self.count += 1.0;
         for kind in Kind::ALL {
-            self.late[kind as usize] += relative(probe.change(kind));
-            self.before[kind as usize] += relative(probe.change_before(kind));
+            self.variance[kind as usize] += relative(probe.variance(kind));
         }
-        let product = |kind| probe.biases(kind).map(|[a, b]| relative(a * b));
-        if let (Some(caustic), Some(indirect), Some(both)) =
-            (product(Kind::Caustic), product(Kind::Indirect), product(Kind::Total))
-        {
+        self.changes[0] += relative(probe.change());
+        self.changes[1] += relative(probe.change_before());
+        if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases() {
             self.biased += 1.0;
-            for (sum, value) in self.bias.iter_mut().zip([caustic, indirect, both]) {
-                *sum += value;
-            }
+            self.bias[0] += relative(caustic * caustic_later);
+            self.bias[1] += relative(indirect * indirect_later);
+            self.bias[2] += relative((caustic + indirect) * (caustic_later + indirect_later));
         }
-        if let Some(variances) = probe.rest_variance() {
-            self.paired += 1.0;
-            for (sum, variance) in self.rest.iter_mut().zip(variances) {
-                *sum += relative(variance);
-            }
+        if let Some(at_one_place) = probe.variance_at_one_place() {
+            self.place[0] += relative(at_one_place);
+            self.place[1] += relative(probe.variance(Kind::Rest));
         }
     }
 
     /// Together with `times` another.
     fn with(&self, other: &Sums, times: f64) -> Sums {
-        let add = |a: f64, b: f64| a + times * b;
         let mut sum = *self;
-        sum.count = add(sum.count, other.count);
-        sum.biased = add(sum.biased, other.biased);
-        sum.paired = add(sum.paired, other.paired);
-        let pairs = [(&mut sum.late, &other.late), (&mut sum.before, &other.before)];
-        for (mine, theirs) in pairs {
-            mine.iter_mut().zip(theirs).for_each(|(a, b)| *a = add(*a, *b));
-        }
-        sum.bias.iter_mut().zip(&other.bias).for_each(|(a, b)| *a = add(*a, *b));
-        sum.rest.iter_mut().zip(&other.rest).for_each(|(a, b)| *a = add(*a, *b));
+        let add =
+            |mine: &mut [f64], theirs: &[f64]| mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += times * b);
+        add(&mut sum.variance, &other.variance);
+        add(&mut sum.changes, &other.changes);
+        add(&mut sum.bias, &other.bias);
+        add(&mut sum.place, &other.place);
+        sum.count += times * other.count;
+        sum.biased += times * other.biased;
         sum
     }
 
-    /// The squared noise of the mean of all passes, and the rate at which it falls.
+    /// The squared noise of the mean of all passes, and the rate at which it will fall.
     fn noise(&self, kind: Kind, part: u32, passes: u32) -> [f64; 2] {
-        let late = (self.late[kind as usize] / self.count.max(1.0)).max(0.0);
-        let before = (self.before[kind as usize] / self.count.max(1.0)).max(0.0);
-        let (a, n) = (f64::from(part), f64::from(passes));
-        if part < 2 {
-            return [late / (1.0 / a - 1.0 / n) / n, 1.0];
+        let s2 = self.variance[kind as usize] / self.count.max(1.0);
+        if kind != Kind::Rest {
+            return [s2 / f64::from(passes), PHOTON_RATE];
         }
-        if late + before <= 0.0 {
-            return [0.0, 1.0];
+        let change = (self.changes[0] + self.changes[1]) / self.count.max(1.0);
+        if part < 2 || s2 <= 0.0 {
+            return [s2 / f64::from(passes), 1.0];
         }
-        // The rate at which D(a, n) / D(a/2, a) is as found: it rises as p falls.
-        let drop = |from: f64, to: f64, p: f64| libm::pow(from, -p) - libm::pow(to, -p);
-        let ratio = |p: f64| drop(a, n, p) / drop(a / 2.0, a, p);
+        // The change falls as the rate rises.
         let [mut low, mut high] = RATES;
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if ratio(middle) * before > late { low = middle } else { high = middle }
+            if s2 * Law(middle).change(part, passes) > change { low = middle } else { high = middle }
         }
-        let p = 0.5 * (low + high);
-        [(late + before) / drop(a / 2.0, n, p) * libm::pow(n, -p), p]
+        let law = Law(0.5 * (low + high));
+        [s2 * law.of(part, passes), law.0]
     }
 
     /// The squared bias: 0 caustic, 1 indirect, 2 both.
@@ -196,21 +192,19 @@ impl Sums {
 
     /// The squared error.
     fn total(&self, part: u32, passes: u32) -> f64 {
-        self.noise(Kind::Total, part, passes)[0] + self.bias(2)
+        Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum::<f64>() + self.bias(2)
     }
 
     fn accuracy(&self, part: u32, passes: u32, error: f64) -> Accuracy {
-        let [noise, _] = self.noise(Kind::Total, part, passes);
-        let bias = self.bias(2);
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
-        let [between, within] = self.rest;
-        let edges = if self.paired > 0.0 && between > 0.0 { (1.0 - within / between).max(0.0) } else { 0.0 };
-        let [rest, rest_rate] = self.noise(Kind::Rest, part, passes);
+        let [place, all] = self.place;
+        let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
+        let [rest, rate] = self.noise(Kind::Rest, part, passes);
         let [caustic, caustic_rate] = self.noise(Kind::Caustic, part, passes);
         let [indirect, indirect_rate] = self.noise(Kind::Indirect, part, passes);
         let rows = [
-            ("edges", rest * edges, 0.0, rest_rate),
-            ("direct", rest * (1.0 - edges), 0.0, rest_rate),
+            ("edges", rest * edges, 0.0, rate),
+            ("direct", rest * (1.0 - edges), 0.0, rate),
             ("caustics", caustic, self.bias(0), caustic_rate),
             ("indirect", indirect, self.bias(1), indirect_rate),
         ];
@@ -227,10 +221,49 @@ impl Sums {
             passes,
             error,
             interval: [error; 2],
-            noise: noise.sqrt(),
-            bias: bias.sqrt(),
+            noise: (rest + caustic + indirect).sqrt(),
+            bias: self.bias(2).sqrt(),
             by_effect: rows.map(part).collect(),
         }
+    }
+}
+
+/// V(n)/V(1) of samples that are well distributed over parts of a power of two, at a rate.
+#[derive(Clone, Copy, Debug)]
+struct Law(f64);
+
+impl Law {
+    /// Of a full part.
+    fn full(self, n: u32) -> f64 {
+        libm::pow(f64::from(n), -self.0)
+    }
+
+    /// Of any number of passes: full parts, the largest first, each independent of the others.
+    fn any(self, mut n: u32) -> f64 {
+        let all = f64::from(n);
+        let mut sum = 0.0;
+        while n > 0 {
+            let part = 1 << n.ilog2();
+            sum += f64::from(part) * f64::from(part) * self.full(part);
+            n -= part;
+        }
+        sum / (all * all)
+    }
+
+    /// Of `passes` passes, the first `part` of which are full.
+    fn of(self, part: u32, passes: u32) -> f64 {
+        if passes == 2 * part { self.full(passes) } else { self.any(passes) }
+    }
+
+    /// The squared change of the mean since half of the first part, in its two steps together.
+    fn change(self, part: u32, passes: u32) -> f64 {
+        let before = self.full(part / 2) - self.full(part);
+        let late = passes - part;
+        if late == part {
+            return before + self.full(part) - self.full(passes);
+        }
+        let share = f64::from(late) / f64::from(passes);
+        before + share * share * (self.full(part) + if late > 0 { self.any(late) } else { 0.0 })
     }
 }
 

@@ -40,6 +40,9 @@ const ADAPTIVE_SIDE: u32 = 16;
 const SHARE: f64 = 0.01;
 const SECONDS: (f64, f64) = (0.001, 0.02);
 
+/// Rounds of two blocks a thread, at least: one of them to warm up.
+const ROUNDS: u32 = 4;
+
 /// One sample in so many is timed by its parts.
 const TIMED: u32 = 7;
 
@@ -63,7 +66,7 @@ impl Pace {
             round += 1;
             let predicted = sum.tally.seconds / sum.pixels * all * f64::from(passes);
             let enough = (SHARE * predicted / f64::from(threads)).clamp(SECONDS.0, SECONDS.1);
-            if began.elapsed().as_secs_f64() >= enough && round > 1 || sum.pixels >= all {
+            if began.elapsed().as_secs_f64() >= enough && round >= ROUNDS || sum.pixels >= all {
                 break;
             }
         }

@@ -53,8 +53,6 @@ impl Probes {
 /// Light that is estimated apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// All of it.
-    Total,
     /// What is neither of the others: lamps, the sky, and all that is seen.
     Rest,
     Caustic,
@@ -62,7 +60,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Kind; 4] = [Kind::Total, Kind::Rest, Kind::Caustic, Kind::Indirect];
+    pub const ALL: [Kind; 3] = [Kind::Rest, Kind::Caustic, Kind::Indirect];
 }
 
 /// One pixel's statistics.
@@ -73,18 +71,18 @@ pub struct Probe {
     /// Passes so far, and those of them that the first part holds: a power of two.
     pub passes: u32,
     pub part: u32,
-    /// Sums of rest, caustic, indirect.
+    /// Sums by kind.
     sums: [DVec3; 3],
-    /// Means over the first part.
-    first: [Vec3; 3],
-    /// (mean of the part before − mean of the part)², by kind, when the part was closed.
-    closed: [Vec3; 4],
+    /// Σ (x − mean)² over passes by kind, by Welford's recurrence.
+    squares: [Vec3; 3],
+    /// Of the rest: its mean over the first part; and (mean of the part before − mean of the part)² from when
+    /// the part was closed.
+    first: Vec3,
+    closed: Vec3,
     /// Sums of the estimated bias of caustic and indirect light, of passes that looked at it; of the first
     /// part, and of what came later.
     bias: [[Vec3; 2]; 2],
     looked: [u32; 2],
-    /// Σ (x − mean)² of the rest over passes, by Welford's recurrence.
-    squares: Vec3,
     /// Σ ½ (a − b)² of the rest over pairs of samples at one place.
     pairs: Vec3,
     paired: u32,
@@ -93,17 +91,16 @@ pub struct Probe {
 impl Probe {
     pub(super) fn add(&mut self, x: u32, y: u32, value: &PixelValue) {
         (self.x, self.y) = (x, y);
-        let rest = value.radiance - value.caustic - value.indirect;
-        let n = f64::from(self.passes);
-        let old = if self.passes == 0 { DVec3::ZERO } else { self.sums[0] / n };
-        let new = (self.sums[0] + rest) / (n + 1.0);
-        self.squares += ((rest - old) * (rest - new)).as_vec3();
         // A power of two is full: what comes now is its second half.
         if self.passes.is_power_of_two() {
             self.close();
         }
-        for (sum, light) in self.sums.iter_mut().zip([rest, value.caustic, value.indirect]) {
-            *sum += light;
+        let rest = value.radiance - value.caustic - value.indirect;
+        let n = f64::from(self.passes);
+        for (i, light) in [rest, value.caustic, value.indirect].into_iter().enumerate() {
+            let old = if self.passes == 0 { DVec3::ZERO } else { self.sums[i] / n };
+            self.sums[i] += light;
+            self.squares[i] += ((light - old) * (light - self.sums[i] / (n + 1.0))).as_vec3();
         }
         self.passes += 1;
         if let Some(bias) = value.bias {
@@ -121,10 +118,10 @@ impl Probe {
     /// All passes so far become the first part.
     fn close(&mut self) {
         if self.part > 0 {
-            self.closed = Kind::ALL.map(|kind| self.change(kind).as_vec3());
+            self.closed = self.change().as_vec3();
         }
         self.part = self.passes;
-        self.first = self.sums.map(|sum| (sum / f64::from(self.passes)).as_vec3());
+        self.first = self.mean(Kind::Rest).as_vec3();
         let both = |i: usize| self.bias[0][i] + self.bias[1][i];
         self.bias = [[both(0), both(1)], [Vec3::ZERO; 2]];
         self.looked = [self.looked[0] + self.looked[1], 0];
@@ -132,57 +129,43 @@ impl Probe {
 
     /// The mean of a kind of light over all passes.
     pub fn mean(&self, kind: Kind) -> DVec3 {
-        let mean = |i: usize| self.sums[i] / f64::from(self.passes.max(1));
-        match kind {
-            Kind::Total => mean(0) + mean(1) + mean(2),
-            Kind::Rest => mean(0),
-            Kind::Caustic => mean(1),
-            Kind::Indirect => mean(2),
-        }
+        self.sums[kind as usize] / f64::from(self.passes.max(1))
     }
 
-    /// (mean of the first part − mean of all)².
-    pub fn change(&self, kind: Kind) -> DVec3 {
-        let first = |i: usize| self.first[i].as_dvec3();
-        let first = match kind {
-            Kind::Total => first(0) + first(1) + first(2),
-            Kind::Rest => first(0),
-            Kind::Caustic => first(1),
-            Kind::Indirect => first(2),
-        };
-        let change = self.mean(kind) - first;
+    /// Of all light.
+    pub fn mean_of_all(&self) -> DVec3 {
+        Kind::ALL.into_iter().map(|kind| self.mean(kind)).sum()
+    }
+
+    /// The variance of a kind of light from pass to pass; 0 of one pass.
+    pub fn variance(&self, kind: Kind) -> DVec3 {
+        self.squares[kind as usize].as_dvec3() / f64::from(self.passes.max(2) - 1)
+    }
+
+    /// Of the rest: (mean of the first part − mean of all)².
+    pub fn change(&self) -> DVec3 {
+        let change = self.mean(Kind::Rest) - self.first.as_dvec3();
         change * change
     }
 
     /// The same when half of the first part was compared with the whole of it.
-    pub fn change_before(&self, kind: Kind) -> DVec3 {
-        self.closed[kind as usize].as_dvec3()
+    pub fn change_before(&self) -> DVec3 {
+        self.closed.as_dvec3()
     }
 
-    /// Estimates of the bias of caustic or indirect light from the first part of the passes and from the
+    /// Estimates of the bias of caustic and of indirect light, from the first part of the passes and from the
     /// later ones, whose errors are independent. `None` where either looked at none.
-    pub fn biases(&self, kind: Kind) -> Option<[DVec3; 2]> {
-        let of = |half: usize| -> Option<DVec3> {
-            let sum = match kind {
-                Kind::Caustic => self.bias[half][0],
-                Kind::Indirect => self.bias[half][1],
-                Kind::Total => self.bias[half][0] + self.bias[half][1],
-                Kind::Rest => Vec3::ZERO,
-            };
-            (self.looked[half] > 0).then(|| sum.as_dvec3() / f64::from(self.looked[half]))
+    pub fn biases(&self) -> Option<[[DVec3; 2]; 2]> {
+        let of = |half: usize| {
+            let mean = |sum: Vec3| sum.as_dvec3() / f64::from(self.looked[half]);
+            (self.looked[half] > 0).then(|| self.bias[half].map(mean))
         };
         Some([of(0)?, of(1)?])
     }
 
-    /// Of the rest: its variance from pass to pass, and what of it is left at one place of the pixel.
-    /// `None` where that is not known.
-    pub fn rest_variance(&self) -> Option<[DVec3; 2]> {
-        (self.passes > 1 && self.paired > 0).then(|| {
-            [
-                self.squares.as_dvec3() / f64::from(self.passes - 1),
-                self.pairs.as_dvec3() / f64::from(self.paired),
-            ]
-        })
+    /// The variance of the rest that is left at one place of the pixel. `None` where that is not known.
+    pub fn variance_at_one_place(&self) -> Option<DVec3> {
+        (self.paired > 0).then(|| self.pairs.as_dvec3() / f64::from(self.paired))
     }
 }
 
@@ -217,12 +200,13 @@ mod tests {
     fn parts_are_powers_of_two() {
         let four = probe([1.0, 3.0, 4.0, 6.0]);
         assert_eq!((four.passes, four.part), (4, 2));
-        assert_eq!(four.change(Kind::Total).x, 1.5 * 1.5);
-        assert_eq!(four.change_before(Kind::Rest).x, 1.0);
-        assert_eq!(four.biases(Kind::Caustic).map(|b| b.map(|b| b.x)), Some([2.0, 5.0]));
+        assert_eq!(four.change().x, 1.5 * 1.5);
+        assert_eq!(four.change_before().x, 1.0);
+        assert_eq!(four.biases().map(|b| b.map(|[caustic, _]| caustic.x)), Some([2.0, 5.0]));
+        assert!((four.variance(Kind::Rest).x - 13.0 / 3.0).abs() < 1e-6);
         let six = probe([1.0, 3.0, 4.0, 6.0, 0.0, 1.0]);
         assert_eq!((six.passes, six.part), (6, 4));
-        assert!((six.change(Kind::Total).x - 1.0).abs() < 1e-12);
-        assert_eq!(six.change_before(Kind::Total).x, 1.5 * 1.5);
+        assert!((six.change().x - 1.0).abs() < 1e-12);
+        assert_eq!(six.change_before().x, 1.5 * 1.5);
     }
 }

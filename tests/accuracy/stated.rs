@@ -98,8 +98,10 @@ fn rendering_for_a_time_keeps_to_it() {
 /// What could never tell its error is not rendered to one.
 #[test]
 fn errors_that_no_pass_shows_are_refused() {
-    for (from, to) in [("image:", "antialiasing: grid(3), image:"), ("progressive(count: 4000)", "classic()")]
-    {
+    for (from, to) in [
+        ("image:", "antialiasing: grid(3), image:"),
+        ("progressive(count: 4000)", "classic(count: 4000, k: 30)"),
+    ] {
         let loaded = focused(GLASS.replace(from, to)).load();
         let until = Until { error: Some(0.1), seconds: None };
         let refused = render::render(&loaded, &Options { until, ..Options::default() }, &Silent);
