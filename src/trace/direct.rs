@@ -25,24 +25,48 @@ impl Tracer<'_> {
         tally: &mut Tally,
     ) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for (i, emitter) in (0u64..).zip(&self.world.emitters) {
-            let mut light = Vec3::ZERO;
-            for k in 0..emitter.samples {
+        for (i, emitter) in self.world.emitters.iter().enumerate() {
+            let part = |k, tally: &mut Tally| {
                 // Only emitters with an extent draw it.
-                let u = || sequence.dimension(LIGHTS).dimension(i).split(k, emitter.samples).pair();
-                let Some(sample) = self.light_sample(emitter, surface, shading, u) else { continue };
-                let value = sample.value * reflected_share(base, shading, &sample);
-                if value == Vec3::ZERO {
-                    continue;
-                }
-                tally.rays.shadow += 1;
-                if self.visible(i as usize, surface, shading, &sample) {
-                    light += value * self.world.transmittance(media, sample.distance);
-                }
+                let u = || sequence.dimension(LIGHTS).dimension(i as u64).split(k, emitter.samples).pair();
+                self.once(i, base, surface, shading, media, u, tally)
+            };
+            if emitter.samples == 1 {
+                sum += part(0, tally);
+                continue;
             }
+            let mut light = Vec3::ZERO;
+            (0..emitter.samples).for_each(|k| light += part(k, tally));
             sum += light / emitter.samples as f32;
         }
         sum
+    }
+
+    /// The light of one sample of an emitter, by its index.
+    #[expect(clippy::too_many_arguments, reason = "the body of a loop")]
+    #[inline]
+    fn once(
+        &self,
+        emitter: usize,
+        base: Vec3,
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        u: impl FnOnce() -> [f64; 2],
+        tally: &mut Tally,
+    ) -> Vec3 {
+        let Some(sample) = self.light_sample(&self.world.emitters[emitter], surface, shading, u) else {
+            return Vec3::ZERO;
+        };
+        let value = sample.value * reflected_share(base, shading, &sample);
+        if value == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        tally.rays.shadow += 1;
+        if !self.visible(emitter, surface, shading, &sample) {
+            return Vec3::ZERO;
+        }
+        value * self.world.transmittance(media, sample.distance)
     }
 
     /// Whether nothing hides the light of an emitter, by its index.

@@ -146,7 +146,7 @@ impl Lattice<'_> {
         // Lattice points of different depths are different items.
         let item = key ^ u64::from(self.steps) << 58;
         let sequence = Sequence::new(self.tracer.plan.seed, Stage::Film, item, self.pass);
-        let sample = self.tracer.sample(film, sequence, self.scratch, self.tally);
+        let sample = *self.tracer.sample(film, sequence, self.scratch, self.tally);
         if !sample.is_finite() {
             let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
             self.tally.health.non_finite(place);

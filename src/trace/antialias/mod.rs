@@ -36,7 +36,7 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
             let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
             let film = DVec2::new(f64::from(x), f64::from(y)) + within;
             let sample = tracer.sample(film, pixel.at(index), scratch, tally);
-            add_finite(&mut average, &sample, Place { x, y, pass }, tally);
+            add_finite(&mut average, sample, Place { x, y, pass }, tally);
         }
         add(tile, x, y, average.value(n * n));
     }
@@ -51,11 +51,12 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let film = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
         let sample = tracer.sample(film, sequence, scratch, tally);
         let mut average = Average::of(tracer.wants);
-        add_finite(&mut average, &sample, Place { x, y, pass }, tally);
+        add_finite(&mut average, sample, Place { x, y, pass }, tally);
         add(tile, x, y, average.value(1));
     }
 }
 
+#[inline]
 fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut Tally) {
     if sample.is_finite() {
         average.add(sample, 1.0);
