@@ -77,14 +77,7 @@ impl World {
 
     /// The surface of a hit on glass, where something opaque lies in reach of rounding.
     #[inline(never)]
-    fn touching(
-        &self,
-        ray: &Ray,
-        media: &MediaSet,
-        surface: &Surface,
-        rank: u32,
-        band: f64,
-    ) -> Option<Met> {
+    fn touching(&self, ray: &Ray, media: &MediaSet, surface: &Surface, rank: u32, band: f64) -> Option<Met> {
         let opaque = self.opaque_within(ray, surface.t, band)?;
         Some(if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
             Met { surface: *surface, behind: Some(opaque) }

@@ -59,7 +59,11 @@ impl World {
         health: &mut Health,
     ) -> Option<Crossing> {
         let rank = self.instances[surface.instance as usize].rank;
-        if rank == 0 || shading.kt == Vec3::ZERO { None } else { self.across(media, dir, surface, rank, health) }
+        if rank == 0 || shading.kt == Vec3::ZERO {
+            None
+        } else {
+            self.across(media, dir, surface, rank, health)
+        }
     }
 
     #[inline(never)]

@@ -168,17 +168,15 @@ impl World {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::random::{Counter, Stage};
     use crate::math::Vec3;
+    use crate::math::random::{Counter, Stage};
 
     /// Of boxes of all sizes, near and far and around the point, every one that a line from the point meets
     /// is among those of its direction.
     #[test]
     fn everything_in_a_direction_is_listed_there() {
         let mut random = Counter::new(7, Stage::Test, 0);
-        let mut vector = |scale: f64| {
-            DVec3::from([(); 3].map(|()| (random.value() - 0.5) * scale))
-        };
+        let mut vector = |scale: f64| DVec3::from([(); 3].map(|()| (random.value() - 0.5) * scale));
         for round in 0..200 {
             let scale = [1e-3, 1.0, 1e3][round % 3];
             let from = vector(4.0 * scale);
@@ -188,7 +186,8 @@ mod tests {
                     Aabb::from_f64(middle - half, middle + half)
                 })
                 .collect();
-            let mut sight = Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
+            let mut sight =
+                Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
             for (bit, bounds) in boxes.iter().enumerate() {
                 sight.enter(from, bounds, 1 << bit);
             }

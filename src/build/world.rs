@@ -100,9 +100,10 @@ impl Geometry {
     fn nearest(&self, local: &Ray, t_max: f64) -> Option<(f64, u32, [f32; 3])> {
         match self {
             Geometry::Shape(shape) => shape.nearest(local, 0.0, t_max).map(|h| (h.t, h.face, [0.0; 3])),
-            Geometry::Mesh(mesh) => {
-                mesh.tree.nearest(&BoxRay::rounded(local), round_up(t_max)).map(|h| (f64::from(h.t), h.triangle, h.b))
-            }
+            Geometry::Mesh(mesh) => mesh
+                .tree
+                .nearest(&BoxRay::rounded(local), round_up(t_max))
+                .map(|h| (f64::from(h.t), h.triangle, h.b)),
         }
     }
 
