@@ -54,7 +54,7 @@ impl Contacts {
     }
 }
 
-/// What a ray meets, with the rounding of coinciding surfaces decided.
+/// What a ray meets where surfaces coincide, with their rounding decided.
 pub struct Met {
     pub surface: Surface,
     /// What is opaque right behind a surface by which the ray leaves glass.
@@ -62,35 +62,28 @@ pub struct Met {
 }
 
 impl World {
-    /// The surface at the nearest hit of a ray that comes through `media`.
+    /// What takes the place of the surface at a ray's nearest hit, reached through `media`, if something
+    /// coincides with it there.
     #[inline(always)]
-    pub fn meet(&self, ray: &Ray, media: &MediaSet, hit: &Hit) -> Met {
-        let surface = self.surface_here(ray, hit);
+    pub fn coinciding(&self, ray: &Ray, media: &MediaSet, hit: &Hit, surface: &Surface) -> Option<Met> {
         let rank = self.instances[hit.instance as usize].rank;
         if rank != 0 {
-            let band = band(ray, &surface);
-            if self.contacts[rank as usize - 1].may_touch(surface.p, band) {
-                return self.touching(ray, media, surface, rank, band);
-            }
-        } else if media.top() != 0
-            && let Some(glass) = self.left_within(ray, media.top(), &surface)
-        {
-            return Met { surface: self.surface(ray, &glass), behind: Some(*hit) };
+            let band = band(ray, surface);
+            let touches = self.contacts[rank as usize - 1].may_touch(surface.p, band);
+            return if touches { self.touching(ray, media, surface, rank, band) } else { None };
         }
-        Met { surface, behind: None }
+        if media.top() != 0 { self.leaving_within(ray, media.top(), hit, surface) } else { None }
     }
 
     /// The surface of a hit on glass, where something opaque lies in reach of rounding.
     #[inline(never)]
-    fn touching(&self, ray: &Ray, media: &MediaSet, surface: Surface, rank: u32, band: f64) -> Met {
-        let Some(opaque) = self.opaque_within(ray, surface.t, band) else {
-            return Met { surface, behind: None };
-        };
-        if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
-            Met { surface, behind: Some(opaque) }
+    fn touching(&self, ray: &Ray, media: &MediaSet, surface: &Surface, rank: u32, band: f64) -> Option<Met> {
+        let opaque = self.opaque_within(ray, surface.t, band)?;
+        Some(if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
+            Met { surface: *surface, behind: Some(opaque) }
         } else {
             Met { surface: self.surface(ray, &opaque), behind: None }
-        }
+        })
     }
 
     /// The first opaque surface within `band` of t along the ray.
@@ -112,6 +105,11 @@ impl World {
 
     /// The surface by which a ray leaves the medium of this rank where it meets an opaque one.
     #[inline(never)]
+    fn leaving_within(&self, ray: &Ray, rank: u32, hit: &Hit, opaque: &Surface) -> Option<Met> {
+        let glass = self.left_within(ray, rank, opaque)?;
+        Some(Met { surface: self.surface(ray, &glass), behind: Some(*hit) })
+    }
+
     fn left_within(&self, ray: &Ray, rank: u32, opaque: &Surface) -> Option<Hit> {
         let band = band(ray, opaque);
         if !self.contacts[rank as usize - 1].may_touch(opaque.p, band) {

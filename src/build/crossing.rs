@@ -60,8 +60,21 @@ impl World {
     ) -> Option<Crossing> {
         let rank = self.instances[surface.instance as usize].rank;
         if rank == 0 || shading.kt == Vec3::ZERO {
-            return None;
+            None
+        } else {
+            self.across(media, dir, surface, rank, health)
         }
+    }
+
+    #[inline(never)]
+    fn across(
+        &self,
+        media: &MediaSet,
+        dir: DVec3,
+        surface: &Surface,
+        rank: u32,
+        health: &mut Health,
+    ) -> Option<Crossing> {
         let mut cross = |media: MediaSet, rank, inwards| {
             media.crossed(rank, inwards).unwrap_or_else(|| {
                 health.count(Rare::MediaOverflow);

@@ -16,11 +16,13 @@ pub struct Cone {
 
 impl Cone {
     /// The cone that goes on after `t` metres, from a flat mirror.
+    #[inline]
     pub fn after(self, t: f64) -> Cone {
         Cone { width: self.width + self.spread * t, ..self }
     }
 
     /// Behind an interface angles shrink by `eta`, for small ones.
+    #[inline]
     pub fn refracted(self, eta: f64) -> Cone {
         Cone { spread: self.spread / eta, ..self }
     }
@@ -28,6 +30,7 @@ impl Cone {
 
 /// The point of a surface for texture lookups, with the ellipse in which the cone meets it; `scale` is
 /// that of the surface's placement.
+#[inline]
 pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> TexturePoint {
     let radius = cone.width + cone.spread * surface.t;
     let n = surface.ng;

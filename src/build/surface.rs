@@ -36,7 +36,7 @@ impl World {
 
     /// The same, compiled into its place: a surface is large to hand over.
     #[inline(always)]
-    pub(super) fn surface_here(&self, ray: &Ray, hit: &Hit) -> Surface {
+    pub fn surface_here(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let placement = &instance.placement;
         let binding = &self.bindings[instance.binding as usize];

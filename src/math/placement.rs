@@ -117,6 +117,7 @@ impl Placement {
     }
 
     /// The factor by which a length grows on the way to the world, over all directions.
+    #[inline]
     pub fn scale(&self) -> f64 {
         self.scale
     }
@@ -127,6 +128,7 @@ impl Placement {
     }
 
     /// An upper bound on the factor by which a length grows on the way to the world.
+    #[inline]
     pub fn stretch(&self) -> f64 {
         self.stretch
     }

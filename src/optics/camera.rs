@@ -35,6 +35,7 @@ impl Camera {
     }
 
     /// Half the angle that a pixel at the centre of the film covers, radians: the spread of a ray cone.
+    #[inline]
     pub fn pixel_spread(&self) -> f64 {
         self.tan_half / f64::from(self.height)
     }

@@ -15,7 +15,7 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Colour, Cone, Crossing, MediaSet, Met, Shading, Surface, World};
+use crate::build::{Colour, Cone, Crossing, Hit, MediaSet, Shading, Surface, World};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Health, Ray, Vec3};
 use crate::optics::Interface;
@@ -112,9 +112,13 @@ impl Walk<'_> {
                 return;
             };
             t_max = f64::INFINITY;
-            let met = self.world.meet(&path.ray, &path.media, &hit);
-            self.absorb(&mut path, met.surface.t, sink);
-            if !self.interact(&mut path, met, sequence, sink) {
+            let mut surface = self.world.surface_here(&path.ray, &hit);
+            let mut behind = None;
+            if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {
+                (surface, behind) = (met.surface, met.behind);
+            }
+            self.absorb(&mut path, surface.t, sink);
+            if !self.interact(&mut path, &mut surface, behind, sequence, sink) {
                 return;
             }
             path.depth += 1;
@@ -138,17 +142,24 @@ impl Walk<'_> {
     }
 
     /// Stores, ends or turns the path; whether it goes on.
-    fn interact(&self, path: &mut Path, met: Met, sequence: Sequence, sink: &mut Sink) -> bool {
+    #[inline]
+    fn interact(
+        &self,
+        path: &mut Path,
+        surface: &mut Surface,
+        behind: Option<Hit>,
+        sequence: Sequence,
+        sink: &mut Sink,
+    ) -> bool {
         let world = self.world;
-        let Met { mut surface, behind } = met;
         let cone = Cone { width: 0.0, spread: 0.0 };
-        let mut shading = Shading::new(world, &surface, -path.ray.dir, &cone);
-        let mut crossing = world.crossing(&path.media, path.ray.dir, &surface, &shading, &mut sink.health);
+        let mut shading = Shading::new(world, surface, -path.ray.dir, &cone);
+        let mut crossing = world.crossing(&path.media, path.ray.dir, surface, &shading, &mut sink.health);
         let unnoticed = crossing.as_ref().is_some_and(|c| c.after.top() == path.media.top());
         if unnoticed && let Some(opaque) = &behind {
             // Nothing is left here, so that what is opaque shows.
-            surface = world.surface(&path.ray, opaque);
-            shading = Shading::new(world, &surface, -path.ray.dir, &cone);
+            *surface = world.surface(&path.ray, opaque);
+            shading = Shading::new(world, surface, -path.ray.dir, &cone);
             crossing = None;
         } else if unnoticed && let Some(crossing) = &crossing {
             // Within an object of higher priority this surface does not exist.
@@ -161,14 +172,14 @@ impl Walk<'_> {
         let scattered = self.scattered(path, &shading, km, through, sequence);
         let on = km + through + scattered.map_or(DVec3::ZERO, |(_, weight)| weight);
         let specular = on != DVec3::ZERO && self.store != Store::Direct;
-        let stored = self.stored(path, &surface, &shading, sink);
+        let stored = self.stored(path, surface, &shading, sink);
         let ended = if specular { path.power * (1.0 - on) } else { path.power };
         let account = if stored { &mut sink.ledger.stored } else { &mut sink.ledger.absorbed };
         *account += ended;
         specular
             && self.turn(
                 path,
-                &surface,
+                surface,
                 &shading,
                 crossing.as_ref(),
                 behind.is_some(),

@@ -7,7 +7,7 @@
 use super::light::{Arrival, LightSample};
 use super::path::{Branch, LIGHTS};
 use super::{Tally, Tracer};
-use crate::build::{Shading, Surface};
+use crate::build::{MediaSet, Shading, Surface};
 use crate::math::{Ray, Vec3};
 use crate::optics::EmitterKind;
 use crate::plan::Carriers;
@@ -34,29 +34,54 @@ impl Tracer<'_> {
         let shine = if self.plan.soft_shadows { shading.ks } else { Vec3::ZERO };
         let sky = [base, shine].map(|weight| if_carried(Carriers::ENVIRONMENT, weight));
         let mut sum = Vec3::ZERO;
-        for (i, emitter) in (0u64..).zip(&self.world.emitters) {
+        for (i, emitter) in self.world.emitters.iter().enumerate() {
             let lobes = if matches!(emitter.kind, EmitterKind::Environment) { sky } else { lamps };
             if lobes == [Vec3::ZERO; 2] {
                 continue;
             }
-            let mut light = Vec3::ZERO;
-            for k in 0..emitter.samples {
+            let part = |k, tally: &mut Tally| {
                 // Only emitters with an extent draw it.
-                let drawn = || sequence.dimension(LIGHTS).dimension(i).split(k, emitter.samples).pair();
+                let drawn =
+                    || sequence.dimension(LIGHTS).dimension(i as u64).split(k, emitter.samples).pair();
                 let u = || if self.plan.soft_shadows { drawn() } else { MIDDLE };
-                let Some(sample) = self.light_sample(emitter, surface, shading, u) else { continue };
-                let value = sample.value * reflected_share(lobes, shading, &sample);
-                if value == Vec3::ZERO {
-                    continue;
-                }
-                tally.rays.shadow += u64::from(self.plan.shadows);
-                if self.visible(i as usize, surface, shading, &sample) {
-                    light += value * self.world.transmittance(&branch.media, sample.distance);
-                }
+                self.once(i, lobes, surface, shading, &branch.media, u, tally)
+            };
+            if emitter.samples == 1 {
+                sum += part(0, tally);
+                continue;
             }
+            let mut light = Vec3::ZERO;
+            (0..emitter.samples).for_each(|k| light += part(k, tally));
             sum += light / emitter.samples as f32;
         }
         sum
+    }
+
+    /// The light of one sample of an emitter, by its index.
+    #[expect(clippy::too_many_arguments, reason = "the body of a loop")]
+    #[inline]
+    fn once(
+        &self,
+        emitter: usize,
+        lobes: [Vec3; 2],
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        u: impl FnOnce() -> [f64; 2],
+        tally: &mut Tally,
+    ) -> Vec3 {
+        let Some(sample) = self.light_sample(&self.world.emitters[emitter], surface, shading, u) else {
+            return Vec3::ZERO;
+        };
+        let value = sample.value * reflected_share(lobes, shading, &sample);
+        if value == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        tally.rays.shadow += u64::from(self.plan.shadows);
+        if !self.visible(emitter, surface, shading, &sample) {
+            return Vec3::ZERO;
+        }
+        value * self.world.transmittance(media, sample.distance)
     }
 
     /// Whether nothing hides the light of an emitter, by its index.

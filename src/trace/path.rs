@@ -13,7 +13,7 @@
 use super::bounce;
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
-use crate::build::{Cone, Crossing, MediaSet, Met, Shading, Surface};
+use crate::build::{Cone, Crossing, MediaSet, Shading, Surface};
 use crate::math::random::Sequence;
 use crate::math::{DVec2, Ray, Vec3};
 use crate::plan::Carriers;
@@ -79,13 +79,15 @@ const LENS: u64 = 6;
 /// Storage that samples of one tile use again, and what holds for all of them.
 pub struct Scratch {
     branches: Vec<Branch>,
+    sample: Sample,
     /// The media around the eye.
     start: MediaSet,
 }
 
 impl Scratch {
     pub fn new(tracer: &Tracer) -> Scratch {
-        Scratch { branches: Vec::new(), start: tracer.world.media_at(tracer.world.camera.eye) }
+        let start = tracer.world.media_at(tracer.world.camera.eye);
+        Scratch { branches: Vec::new(), sample: Sample::default(), start }
     }
 }
 
@@ -93,13 +95,13 @@ impl Tracer<'_> {
     /// The sample at `film` (pixels from the top left corner) of a sequence. What is not wanted of it may
     /// stay 0.
     #[inline]
-    pub fn sample(
+    pub fn sample<'s>(
         &self,
         film: DVec2,
         sequence: Sequence,
-        scratch: &mut Scratch,
+        scratch: &'s mut Scratch,
         tally: &mut Tally,
-    ) -> Sample {
+    ) -> &'s Sample {
         let camera = &self.world.camera;
         let lens = if camera.lens_radius > 0.0 {
             crate::math::sampling::disk(sequence.dimension(LENS).pair())
@@ -109,7 +111,7 @@ impl Tracer<'_> {
         tally.rays.camera += 1;
         tally.health.samples += 1;
         tally.watch.begin();
-        let mut sample = Sample::default();
+        scratch.sample = Sample::default();
         scratch.branches.clear();
         let mut branch = Branch {
             ray: camera.ray(film, lens),
@@ -123,10 +125,10 @@ impl Tracer<'_> {
             class: Class::Direct,
         };
         loop {
-            self.follow(&mut branch, &mut sample, &mut scratch.branches, tally);
+            self.follow(&mut branch, &mut scratch.sample, &mut scratch.branches, tally);
             match scratch.branches.pop() {
                 Some(next) => branch = next,
-                None => return sample,
+                None => return &scratch.sample,
             }
         }
     }
@@ -141,6 +143,7 @@ impl Tracer<'_> {
         }
     }
 
+    #[inline(never)]
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         tally.watch.enter(branch.part());
         let hit = if branch.depth == 0 && branch.bounces == 0 {
@@ -151,7 +154,11 @@ impl Tracer<'_> {
         let Some(hit) = hit else {
             return self.deposit(sample, branch, self.leaving(branch));
         };
-        let Met { mut surface, behind } = self.world.meet(&branch.ray, &branch.media, &hit);
+        let mut surface = self.world.surface_here(&branch.ray, &hit);
+        let mut behind = None;
+        if let Some(met) = self.world.coinciding(&branch.ray, &branch.media, &hit, &surface) {
+            (surface, behind) = (met.surface, met.behind);
+        }
         branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
         let mut shading = Shading::new(self.world, &surface, wo, &branch.cone);

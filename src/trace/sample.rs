@@ -23,7 +23,8 @@ pub struct Wants {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     pub radiance: Vec3,
-    /// Light by the first specular event on its way from the eye; their sum is `radiance`.
+    /// Light by the first specular event on its way from the eye, where it is wanted apart; their sum is then
+    /// `radiance`.
     pub direct: Vec3,
     pub reflection: Vec3,
     pub refraction: Vec3,

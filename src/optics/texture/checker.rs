@@ -20,6 +20,7 @@ impl Checker {
         Checker { colors, squares }
     }
 
+    #[inline]
     pub(super) fn weight(&self, at: &TexturePoint) -> f64 {
         let x = at.uv * self.squares;
         let half = at.half_extent() * self.squares.abs();

@@ -45,6 +45,7 @@ impl TexturePoint {
     }
 
     /// Half extents of the footprint's bounding box along u and v; never NaN.
+    #[inline]
     fn half_extent(&self) -> DVec2 {
         let [a, b] = self.duv;
         let extent = |x: f64, y: f64| {
@@ -155,6 +156,7 @@ impl Colors {
         Colors { a: clean(a), b: clean(b) }
     }
 
+    #[inline]
     fn blend(&self, weight: f64) -> Vec3 {
         let w = weight.clamp(0.0, 1.0) as f32;
         self.a * (1.0 - w) + self.b * w

@@ -1,12 +1,14 @@
-//! Corner subdivision: a cell whose corners and centre differ is divided into four.
+//! Corner subdivision where a pixel stands out: a cell whose corners and centre differ is divided into four.
 //!
-//! The report's method with its three gaps closed: a cell is also looked at in its centre, so that
-//! what lies between corners is not missed; depth is bounded; and the threshold is on relative
-//! contrast, (max − min) / (max + min + 2·floor) in any channel, the floor a hundredth of the scene's
-//! middling luminance, so that neither exposure nor the height of an edge matters.
+//! The report's method with its gaps closed. Every pixel is looked at in its centre first; one that differs
+//! from none of its eight neighbours is even and costs that one sample. The others are cells: a cell is looked at
+//! in its centre too, so that what lies between corners is not missed; depth is bounded; and the threshold is
+//! on relative contrast, (max − min) / (max + min + 2·floor) in any channel, the floor a hundredth of the
+//! scene's middling luminance, so that neither exposure nor the height of an edge matters.
 //!
 //! Corners lie on a lattice of 2^depth steps a pixel and are traced once a tile, whichever cells and
-//! pixels share them. Every value is a function of its lattice point and the pass alone.
+//! pixels share them; the centres of the pixels around a tile are traced by it as well. Every value is a
+//! function of its lattice point and the pass alone.
 
 use super::Average;
 use crate::math::random::{Sequence, Stage};
@@ -37,6 +39,7 @@ pub(super) fn pass(
         pass,
         threshold: threshold as f32,
         floor: FLOOR * tracer.reference_level,
+        radiances: Vec::new(),
         samples: Vec::new(),
         whole: Whole::of(tile),
         finer: HashMap::default(),
@@ -45,7 +48,13 @@ pub(super) fn pass(
         let mut average = Average::of(super::wants(tracer, super::is_probe(tracer, x, y)));
         let size = lattice.steps;
         let mut used = 0;
-        lattice.cell(x * size, y * size, size, &mut average, &mut used);
+        if lattice.stands_out(x, y) {
+            lattice.cell(x * size, y * size, size, &mut average, &mut used);
+        } else {
+            used = 1;
+            let centre = lattice.centre(x, y);
+            lattice.add(centre, 1.0, &mut average);
+        }
         super::add(tile, x, y, average.value(used));
     }
 }
@@ -60,12 +69,14 @@ struct Lattice<'a> {
     threshold: f32,
     floor: f32,
     /// What has been traced; the tables below hold places in it.
+    radiances: Vec<Vec3>,
+    /// The whole samples, where more than their radiance is wanted.
     samples: Vec<Sample>,
     whole: Whole,
     finer: HashMap<u64, u32, BuildHasherDefault<Spread>>,
 }
 
-/// The corners and centres of the tile's pixels, which are traced in any case.
+/// The corners and centres of the tile's pixels and of those around it.
 struct Whole {
     x: u32,
     y: u32,
@@ -77,7 +88,7 @@ struct Whole {
 
 impl Whole {
     fn of(tile: &Tile) -> Whole {
-        let (row, rows) = (2 * tile.width + 1, 2 * tile.height + 1);
+        let (row, rows) = (2 * tile.width + 3, 2 * tile.height + 3);
         Whole { x: tile.x, y: tile.y, row, places: vec![0; row as usize * rows as usize] }
     }
 
@@ -86,12 +97,32 @@ impl Whole {
         if (x | y) & (half - 1) != 0 {
             return None;
         }
-        let (column, line) = (x / half - 2 * self.x, y / half - 2 * self.y);
+        let (column, line) = (x / half + 1 - 2 * self.x, y / half + 1 - 2 * self.y);
         self.places.get_mut(line as usize * self.row as usize + column as usize)
     }
 }
 
 impl Lattice<'_> {
+    /// The place of the sample in the centre of a pixel.
+    fn centre(&mut self, x: u32, y: u32) -> u32 {
+        let half = self.steps / 2;
+        self.point(x * self.steps + half, y * self.steps + half)
+    }
+
+    /// Whether a pixel and the eight around it differ in their centres.
+    fn stands_out(&mut self, x: u32, y: u32) -> bool {
+        let camera = &self.tracer.world.camera;
+        let (right, bottom) = ((x + 1).min(camera.width - 1), (y + 1).min(camera.height - 1));
+        let mut range = Range::default();
+        for y in y.saturating_sub(1)..=bottom {
+            for x in x.saturating_sub(1)..=right {
+                let centre = self.centre(x, y);
+                range.add(self.radiances[centre as usize]);
+            }
+        }
+        range.contrast(self.floor) > self.threshold
+    }
+
     /// Adds the mean of the cell at (x, y) of `size` lattice steps, weighted by its area. A cell that
     /// is not divided weighs its centre by a half and its corners by an eighth each.
     fn cell(&mut self, x: u32, y: u32, size: u32, average: &mut Average, used: &mut u32) {
@@ -100,7 +131,7 @@ impl Lattice<'_> {
             [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| self.point(x, y));
         if size == 1 {
             *used += 1;
-            return corners.iter().for_each(|&c| average.add_finite(self.sample(c), area / 4.0));
+            return corners.iter().for_each(|&c| self.add(c, area / 4.0, average));
         }
         let half = size / 2;
         let centre = self.point(x + half, y + half);
@@ -111,26 +142,32 @@ impl Lattice<'_> {
             return;
         }
         *used += 1;
-        average.add_finite(self.sample(centre), area / 2.0);
-        corners.iter().for_each(|&c| average.add_finite(self.sample(c), area / 8.0));
-    }
-
-    fn sample(&self, place: u32) -> &Sample {
-        &self.samples[place as usize]
+        self.add(centre, area / 2.0, average);
+        corners.iter().for_each(|&c| self.add(c, area / 8.0, average));
     }
 
     fn differ(&self, corners: &[u32; 4], centre: u32) -> bool {
-        let all = corners.iter().chain([&centre]).map(|&c| self.sample(c).radiance).filter(|r| r.is_finite());
-        let (lo, hi) =
-            all.fold((Vec3::INFINITY, Vec3::ZERO), |(lo, hi): (Vec3, Vec3), c| (lo.min(c), hi.max(c)));
-        let contrast = (hi - lo) / (hi + lo + 2.0 * self.floor);
-        contrast.max_element() > self.threshold
+        let mut range = Range::default();
+        corners.iter().chain([&centre]).for_each(|&c| range.add(self.radiances[c as usize]));
+        range.contrast(self.floor) > self.threshold
+    }
+
+    /// Adds a sample to a mean, unless it was dropped.
+    fn add(&self, place: u32, weight: f64, average: &mut Average) {
+        let radiance = self.radiances[place as usize];
+        if !radiance.is_finite() {
+            return;
+        }
+        match self.samples.get(place as usize) {
+            Some(sample) => average.add(sample, weight),
+            None => average.add_radiance(radiance, weight),
+        }
     }
 
     /// The place of a lattice point's sample, traced when it is first asked for.
     fn point(&mut self, x: u32, y: u32) -> u32 {
         let key = u64::from(y) << 32 | u64::from(x);
-        let next = self.samples.len() as u32;
+        let next = self.radiances.len() as u32;
         if let Some(slot) = self.whole.slot(x, y, self.steps / 2) {
             if *slot != 0 {
                 return *slot - 1;
@@ -151,16 +188,36 @@ impl Lattice<'_> {
             let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
             self.tally.health.non_finite(place);
         }
-        self.samples.push(sample);
+        self.radiances.push(sample.radiance);
+        let wants = self.tracer.wants;
+        if wants.first_hit || wants.split || wants.photons {
+            self.samples.push(*sample);
+        }
         next
     }
 }
 
-impl Average {
-    fn add_finite(&mut self, sample: &Sample, weight: f64) {
-        if sample.is_finite() {
-            self.add(sample, weight);
+/// The least and the greatest of the finite radiances, channel by channel.
+struct Range {
+    lo: Vec3,
+    hi: Vec3,
+}
+
+impl Default for Range {
+    fn default() -> Range {
+        Range { lo: Vec3::INFINITY, hi: Vec3::ZERO }
+    }
+}
+
+impl Range {
+    fn add(&mut self, radiance: Vec3) {
+        if radiance.is_finite() {
+            (self.lo, self.hi) = (self.lo.min(radiance), self.hi.max(radiance));
         }
+    }
+
+    fn contrast(&self, floor: f32) -> f32 {
+        ((self.hi - self.lo) / (self.hi + self.lo + 2.0 * floor)).max_element()
     }
 }
 

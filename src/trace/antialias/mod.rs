@@ -41,7 +41,7 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
             let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
             let film = DVec2::new(f64::from(x), f64::from(y)) + within;
             let sample = tracer.sample(film, pixel.at(index), scratch, tally);
-            add_finite(&mut average, &sample, Place { x, y, pass }, tally);
+            add_finite(&mut average, sample, Place { x, y, pass }, tally);
         }
         let value = average.value(n * n).map(|value| with_bias(value, tally, n * n));
         add(tile, x, y, value);
@@ -84,19 +84,21 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let probe = is_probe(tracer, x, y);
         look(tally, probe, tracer.wants.bias, pass);
         let sample = tracer.sample(film, sequence, scratch, tally);
+        let rest = sample.rest();
         let mut average = Average::of(wants(tracer, probe));
-        add_finite(&mut average, &sample, Place { x, y, pass }, tally);
+        add_finite(&mut average, sample, Place { x, y, pass }, tally);
         let value = average.value(1).map(|value| with_bias(value, tally, 1));
         let pair = (probe && pass.is_multiple_of(PAIR)).then(|| {
             let mut aside = Tally::default();
             let other = tracer.sample(film, sequence.dimension(ANOTHER), scratch, &mut aside);
-            (sample.rest() - other.rest()).as_dvec3()
+            (rest - other.rest()).as_dvec3()
         });
         let pair = pair.filter(|pair| pair.is_finite());
         add(tile, x, y, value.map(|value| PixelValue { pair, ..value }));
     }
 }
 
+#[inline]
 fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut Tally) {
     if sample.is_finite() {
         average.add(sample, 1.0);
