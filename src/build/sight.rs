@@ -170,6 +170,7 @@ mod tests {
     use super::*;
     use crate::math::Vec3;
     use crate::math::random::{Counter, Stage};
+    use crate::optics::EmitterKind;
 
     /// Of boxes of all sizes, near and far and around the point, every one that a line from the point meets
     /// is among those of its direction.
@@ -203,6 +204,45 @@ mod tests {
             }
             assert!(alone > 0, "every direction lists nearly everything");
         }
+    }
+
+    /// The same answers as the tree's, for rays all over a scene of every shape, lit from within it.
+    #[test]
+    fn eye_and_lamp_see_what_the_tree_finds() {
+        let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 8, height: 8),
+            materials: { "m": (diffuse: 0.5), "glass": (transmission: 1) },
+            lights: { "lamp": point(position: (-1, 2, 1), intensity: 1) },
+            objects: [(shape: quad(size: (9, 9)), material: "m"), (shape: sphere(radius: 0.5, center: (-0.6, 0.5, 0)), material: "glass"),
+                (shape: box(size: (1, 1, 1), center: (0, 0.5, 0)), material: "m", transform: [rotate(axis: (0, 1, 0), deg: 30), translate((1.4, 0, -1))]),
+                (shape: cone(radius: 0.4, height: 1.2), material: "m", transform: [translate((0.6, 0, 0.4))]),
+                (shape: disk(radius: 0.7), material: "m", transform: [rotate(axis: (1, 0, 0), deg: 70), translate((0, 1.6, -1))])])"#;
+        let format = crate::description::Format::Ron;
+        let scene =
+            crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
+        let plan = crate::plan::Plan::new(&scene, None, None);
+        let world = crate::build::build(&scene, &plan).expect("it can be built").world;
+        assert!(world.eye.is_some() && world.sights[0].is_some());
+        let EmitterKind::Point { position, .. } = world.emitters[0].kind else { unreachable!() };
+        let mut random = Counter::new(8, Stage::Test, 0);
+        let (mut met, mut hidden) = (0, 0);
+        for _ in 0..20_000 {
+            let u = [(); 3].map(|()| random.value());
+            let aim = DVec3::new(5.0 * u[0] - 2.5, 2.0 * u[1] - 0.4, 4.0 * u[2] - 2.5);
+            let ray = Ray { origin: world.camera.eye, dir: (aim - world.camera.eye).normalize() };
+            let hit = world.nearest(&ray, f64::INFINITY);
+            assert_eq!(world.nearest_from_eye(&ray), hit);
+            let Some(hit) = hit else { continue };
+            met += 1;
+            let surface = world.surface(&ray, &hit);
+            let side = if ray.dir.dot(surface.ng) < 0.0 { 1.0 } else { -1.0 };
+            let origin = surface.p + surface.ng * (side * surface.p_error);
+            let shadow = Ray { origin, dir: position - origin };
+            let outside = side > 0.0 && shadow.dir.dot(surface.ng) > 0.0;
+            let expected = world.occluded(&shadow, 1.0, None);
+            assert_eq!(world.hidden_from(0, &shadow, outside.then_some(surface.instance)), expected);
+            hidden += u32::from(expected);
+        }
+        assert!(met > 5_000 && hidden > 200 && hidden < met, "{met} met, {hidden} hidden");
     }
 
     #[test]
