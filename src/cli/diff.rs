@@ -61,7 +61,8 @@ pub fn run(args: &DiffArgs, terminal: &Terminal) -> Result<(), Failure> {
     if problems.is_empty() {
         return Ok(());
     }
-    if !args.quiet {
+    let sound = found.layers.iter().all(|layer| layer.values.non_finite.unmatched == 0);
+    if !args.quiet || limits.can_fail() || !sound {
         problems.iter().for_each(|problem| terminal.error(problem));
     }
     Err(Failure::new(FAILED, ""))

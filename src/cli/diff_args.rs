@@ -46,7 +46,7 @@ pub struct DiffArgs {
     /// Print one JSON object instead of text
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but warnings and what goes wrong; the exit code tells the rest
+    /// Print no text but warnings and what is over limits; the exit code tells whether the images differ
     #[arg(short, long)]
     pub quiet: bool,
 }

@@ -64,6 +64,11 @@ fn the_worst_pixel_is_found_with_both_values() {
     assert_eq!((worst.image, worst.reference), (vec![12345.0, 4.0, 2.0], vec![12345.0, 1.0, 2.0]));
     near(found.differing, 2.0 / 40_000.0, 1e-12);
     near(found.mse, (9.0 + 6.25) / 120_000.0, 1e-12);
+    // the first of several, in the same part of the image or another
+    (image[30_000][0], image[12_346][0]) = (30_003.0, 12_349.0);
+    let worst = first(200, &image, &reference).values.worst.expect("pixels differ");
+    assert_eq!((worst.x, worst.y), (145, 61));
+    assert_eq!(first(200, &reference, &reference).values.worst, None);
 }
 
 #[test]
