@@ -219,7 +219,7 @@ mod tests {
         let format = crate::description::Format::Ron;
         let scene =
             crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
-        let plan = crate::plan::Plan::new(&scene, None, None);
+        let plan = crate::plan::Plan::new(&scene, &Default::default()).expect("nothing is overridden");
         let world = crate::build::build(&scene, &plan).expect("it can be built").world;
         assert!(world.eye.is_some() && world.sights[0].is_some());
         let EmitterKind::Point { position, .. } = world.emitters[0].kind else { unreachable!() };
