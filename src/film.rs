@@ -63,7 +63,11 @@ impl Film {
 
     /// How far it still is from the truth, its mean luminance being known; `None` where that is not.
     pub fn accuracy(&self, luminance: f64) -> Option<Accuracy> {
-        Accuracy::of(self.tiles.iter().flat_map(Tile::probes), luminance)
+        Accuracy::of(
+            self.tiles.iter().flat_map(Tile::measured),
+            self.tiles.iter().flat_map(Tile::probes),
+            luminance,
+        )
     }
 
     pub fn memory_bytes(&self) -> usize {

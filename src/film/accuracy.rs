@@ -19,7 +19,7 @@
 
 use crate::math::DVec3;
 use crate::math::random::{combine, mix};
-use crate::trace::{Kind, Probe};
+use crate::trace::{Kind, Measured, Probe};
 use serde::Serialize;
 
 /// The relative RMS error of a picture, 1 for 100 %.
@@ -67,9 +67,17 @@ const PHOTON_RATE: f64 = 2.0 / 3.0;
 pub const BIAS_RATE: f64 = 2.0 / 3.0;
 
 impl Accuracy {
-    /// Of a picture of mean luminance `luminance` with these probes, in any order. `None` where fewer than two
-    /// passes are there, or everything is black.
-    pub fn of<'a>(probes: impl Iterator<Item = &'a Probe>, luminance: f64) -> Option<Accuracy> {
+    /// Of a picture of mean luminance `luminance`, all its pixels, and its probes, in any order. `None` where
+    /// fewer than two passes are there, or everything is black.
+    pub fn of<'a>(
+        pixels: impl Iterator<Item = Measured>,
+        probes: impl Iterator<Item = &'a Probe>,
+        luminance: f64,
+    ) -> Option<Accuracy> {
+        let floor = FLOOR * luminance * luminance;
+        if !(floor > 0.0 && floor.is_finite()) {
+            return None;
+        }
         let mut probes: Vec<&Probe> = probes.filter(|probe| probe.passes > 1).collect();
         // A fixed order, whatever the tiles, so that sums have the same bits.
         probes.sort_by_key(|probe| (probe.y, probe.x));
@@ -78,41 +86,86 @@ impl Accuracy {
         let fewer = probes.iter().filter(|probe| probe.passes == least).count();
         let passes = if 2 * fewer >= probes.len() { least } else { most };
         probes.retain(|probe| probe.passes == passes);
-        let floor = FLOOR * luminance * luminance;
-        if !(floor > 0.0 && floor.is_finite()) {
-            return None;
-        }
+        let part = probes.first()?.part;
+
+        let independent = Independent::of(pixels, floor);
         let mut groups = vec![Sums::default(); GROUPS as usize];
         for probe in &probes {
             let group = combine(mix(u64::from(probe.x)), u64::from(probe.y)) % GROUPS;
             groups[group as usize].add(probe, floor);
         }
         let all = groups.iter().fold(Sums::default(), |sum, group| sum.with(group, 1.0));
-        let part = probes.first()?.part;
-        let error = |sums: &Sums| sums.total(part, passes).sqrt();
-        let e = error(&all);
-        let mut accuracy = all.accuracy(part, passes, e);
-        // The jackknife over groups, of ln E; and how far the model of n^−p may be off.
+        let squared = |sums: &Sums| independent.mean * sums.gain(part, passes) + sums.bias(2);
+        let e = squared(&all).sqrt();
+        let mut accuracy = all.accuracy(part, passes, independent.mean);
+        // Chance in the pixels' errors and in what is known of them; the jackknife over groups of probes, of ln E;
+        // and how far the model may be off.
+        let chance =
+            0.5 * TWO_SIGMA * (2.0 * f64::from(passes) / f64::from(passes - 1)).sqrt() * independent.scatter;
         let logs: Vec<f64> = groups
             .iter()
             .filter(|group| group.count > 0.0)
-            .map(|group| libm::log(error(&all.with(group, -1.0)).max(1e-3 * e) / e))
+            .map(|group| 0.5 * libm::log(squared(&all.with(group, -1.0)).max(1e-6 * e * e) / (e * e)))
             .filter(|log| log.is_finite())
             .collect();
-        let n = logs.len() as f64;
-        let mean = logs.iter().sum::<f64>() / n.max(1.0);
-        let variance =
-            logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() * (n - 1.0).max(0.0) / n.max(1.0);
+        let n = (logs.len() as f64).max(1.0);
+        let mean = logs.iter().sum::<f64>() / n;
+        let jackknife = STUDENT
+            * (logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() * (n - 1.0) / n).sqrt();
         let model = match passes {
             2..4 => 0.3,
             4..8 => 0.2,
             _ => 0.12,
         };
-        let half = (STUDENT * STUDENT * variance + model * model).sqrt();
+        let half = (chance * chance + jackknife * jackknife + model * model).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
         Some(accuracy)
     }
 }
+
+/// The squared error of all pixels, were their passes independent.
+struct Independent {
+    mean: f64,
+    /// √Σt²/Σt of the pixels' parts t: how much it hangs on few of them.
+    scatter: f64,
+}
+
+impl Independent {
+    fn of(pixels: impl Iterator<Item = Measured>, floor: f64) -> Independent {
+        // Whole numbers: their sum is the same in any order.
+        let (mut count, mut sum, mut squares) = (0u64, 0u128, 0u128);
+        for pixel in pixels {
+            let weight = weight(pixel.mean, pixel.halves, floor);
+            let t = (pixel.variance * weight).element_sum() / (3.0 * f64::from(pixel.passes));
+            count += 1;
+            sum += (t.min(MOST) * UNIT) as u128;
+            squares += (t.min(MOST) * t.min(MOST) * UNIT) as u128;
+        }
+        let [sum, squares] = [sum, squares].map(|whole| whole as f64 / UNIT);
+        let scatter = if sum > 0.0 { squares.sqrt() / sum } else { 0.0 };
+        Independent { mean: sum / (count as f64).max(1.0), scatter }
+    }
+}
+
+/// Steps of the sums in a squared error of 1, and the most that one pixel can have.
+const UNIT: f64 = (1u64 << 62) as f64;
+const MOST: f64 = 1e6;
+
+/// 1/(R² + floor) by channel, R as the mean has it, but where one half of the passes is much brighter than the
+/// other: then a rare bright path is in it, and the darker half is nearer to the truth.
+fn weight(mean: DVec3, halves: [f64; 2], floor: f64) -> DVec3 {
+    let [darker, brighter] = if halves[0] < halves[1] { halves } else { [halves[1], halves[0]] };
+    let both = 0.5 * (darker + brighter);
+    let scale = if brighter > FAR * darker { (darker.max(0.0) * FAR.sqrt() / both).min(1.0) } else { 1.0 };
+    let r = mean * scale;
+    1.0 / (r * r + floor)
+}
+
+/// Halves of the passes that are this far apart do not show the same thing.
+const FAR: f64 = 2.0;
+
+/// Of a normal distribution, for 95 %.
+const TWO_SIGMA: f64 = 1.96;
 
 /// Sums over probes of squares, relative and averaged over channels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -131,8 +184,8 @@ struct Sums {
 
 impl Sums {
     fn add(&mut self, probe: &Probe, floor: f64) {
-        let r = probe.mean_of_all();
-        let relative = |square: DVec3| (square / (r * r + floor)).element_sum() / 3.0;
+        let weight = weight(probe.mean_of_all(), probe.halves(), floor);
+        let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
         self.count += 1.0;
         for kind in Kind::ALL {
             self.variance[kind as usize] += relative(probe.variance(kind));
@@ -190,12 +243,15 @@ impl Sums {
         (self.bias[which] / self.biased.max(1.0)).max(0.0)
     }
 
-    /// The squared error.
-    fn total(&self, part: u32, passes: u32) -> f64 {
-        Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum::<f64>() + self.bias(2)
+    /// The squared noise over what it would be of independent passes.
+    fn gain(&self, part: u32, passes: u32) -> f64 {
+        let independent = self.variance.iter().sum::<f64>() / (self.count.max(1.0) * f64::from(passes));
+        let noise: f64 = Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum();
+        if independent > 0.0 { noise / independent } else { 1.0 }
     }
 
-    fn accuracy(&self, part: u32, passes: u32, error: f64) -> Accuracy {
+    /// `independent`: the squared error of all pixels, were their passes independent.
+    fn accuracy(&self, part: u32, passes: u32, independent: f64) -> Accuracy {
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
         let [place, all] = self.place;
         let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
@@ -208,6 +264,12 @@ impl Sums {
             ("caustics", caustic, self.bias(0), caustic_rate),
             ("indirect", indirect, self.bias(1), indirect_rate),
         ];
+        // Probes tell how it is shared, all pixels how much it is.
+        let noise = independent * self.gain(part, passes);
+        let probed = rest + caustic + indirect;
+        let scale = if probed > 0.0 { noise / probed } else { 0.0 };
+        let rows = rows.map(|(effect, noise, bias, rate)| (effect, noise * scale, bias, rate));
+        let error = (noise + self.bias(2)).sqrt();
         let sum: f64 = rows.iter().map(|(_, noise, bias, _)| noise + bias).sum();
         let rows = rows.into_iter().filter(|(_, noise, bias, _)| noise + bias > 0.0);
         let part = |(effect, noise, bias, rate): (&'static str, f64, f64, f64)| Part {
@@ -221,7 +283,7 @@ impl Sums {
             passes,
             error,
             interval: [error; 2],
-            noise: (rest + caustic + indirect).sqrt(),
+            noise: noise.sqrt(),
             bias: self.bias(2).sqrt(),
             by_effect: rows.map(part).collect(),
         }

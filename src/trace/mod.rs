@@ -25,7 +25,7 @@ pub use reference_level::reference_level;
 pub use sample::{Sample, Wants};
 use serde::Serialize;
 use std::time::Instant;
-pub use tile::{Layer, Layers, PixelValue, Tile};
+pub use tile::{Layer, Layers, Measured, PixelValue, Tile};
 pub use watch::{Part, Spent, Watch};
 
 /// Rays by kind.

@@ -17,11 +17,14 @@ pub struct Probes {
 /// Probes that an image has at least, should it have as many pixels.
 const LEAST: u64 = 4096;
 
+/// Rec. 709.
+pub(super) const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+
 /// The largest square that one probe stands for.
-const WIDEST: u32 = 5;
+const WIDEST: u32 = 8;
 
 impl Probes {
-    /// Of an image of so many pixels: one in 25, and more of a small one.
+    /// Of an image of so many pixels: one in 64, and more of a small one.
     pub fn of(width: u32, height: u32) -> Probes {
         let pixels = u64::from(width) * u64::from(height);
         let stride = (1..=WIDEST).rev().find(|s| pixels / u64::from(s * s) >= LEAST).unwrap_or(1);
@@ -79,6 +82,8 @@ pub struct Probe {
     /// the part was closed.
     first: Vec3,
     closed: Vec3,
+    /// Of all light: the luminance of even passes.
+    even: f32,
     /// Sums of the estimated bias of caustic and indirect light, of passes that looked at it; of the first
     /// part, and of what came later.
     bias: [[Vec3; 2]; 2],
@@ -94,6 +99,9 @@ impl Probe {
         // A power of two is full: what comes now is its second half.
         if self.passes.is_power_of_two() {
             self.close();
+        }
+        if self.passes.is_multiple_of(2) {
+            self.even += value.radiance.dot(LUMINANCE) as f32;
         }
         let rest = value.radiance - value.caustic - value.indirect;
         let n = f64::from(self.passes);
@@ -135,6 +143,14 @@ impl Probe {
     /// Of all light.
     pub fn mean_of_all(&self) -> DVec3 {
         Kind::ALL.into_iter().map(|kind| self.mean(kind)).sum()
+    }
+
+    /// Mean luminance of the even and of the odd passes.
+    pub fn halves(&self) -> [f64; 2] {
+        let even = f64::from(self.passes.div_ceil(2).max(1));
+        let odd = f64::from((self.passes / 2).max(1));
+        let sum = self.mean_of_all().dot(LUMINANCE) * f64::from(self.passes);
+        [f64::from(self.even) / even, (sum - f64::from(self.even)) / odd]
     }
 
     /// The variance of a kind of light from pass to pass; 0 of one pass.

@@ -4,8 +4,9 @@
 //! are double precision and taken in the order of the passes: the size of the tiles and the number
 //! of threads change nothing.
 
+use super::probe::LUMINANCE;
 use super::{Probe, Probes};
-use crate::math::DVec3;
+use crate::math::{DVec3, Vec3};
 
 /// A pixel's value in one pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,6 +69,24 @@ struct PhotonSums {
     density: f64,
 }
 
+/// What a pixel keeps for the picture's error.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spread {
+    squares: Vec3,
+    even: f32,
+}
+
+/// A pixel's mean, and how far it may be off.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured {
+    pub passes: u32,
+    pub mean: DVec3,
+    /// Of one pass.
+    pub variance: DVec3,
+    /// Mean luminance of the even and of the odd passes.
+    pub halves: [f64; 2],
+}
+
 /// A rectangle of pixels with its sums. Layers that are not kept take no memory.
 #[derive(Clone, Debug)]
 pub struct Tile {
@@ -77,12 +96,14 @@ pub struct Tile {
     pub height: u32,
     radiance: Vec<DVec3>,
     passes: Vec<u32>,
-    samples: Vec<u64>,
+    samples: Vec<u32>,
     split: Vec<SplitSums>,
     first: Vec<FirstHitSums>,
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
     photons: Vec<PhotonSums>,
+    /// For the picture's error: Σ (x − mean)² by channel, and the luminance of even passes.
+    spread: Vec<Spread>,
     /// Sums of the estimated bias, and of the passes that looked at it.
     bias: Vec<(DVec3, u32)>,
     /// One a square; empty where a square's probe is another tile's.
@@ -113,6 +134,7 @@ impl Tile {
             first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
             photons: vec![PhotonSums::default(); if_kept(layers.photons)],
+            spread: vec![Spread::default(); if_kept(layers.probes.is_some())],
             bias: vec![(DVec3::ZERO, 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
@@ -138,15 +160,21 @@ impl Tile {
     pub fn add(&mut self, x: u32, y: u32, value: &PixelValue) {
         let i = self.index(x, y);
         let before = f64::from(self.passes[i]);
+        // Welford 1962: M₂ += (x − old mean)·(x − new mean) = (x − old mean)²·n/(n + 1).
+        let off = if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i] / before };
+        let square = off * off * (before / (before + 1.0));
         if let Some(squares) = self.squares.get_mut(i) {
-            // Welford 1962: M₂ += (x − old mean)·(x − new mean).
-            let old = if before == 0.0 { DVec3::ZERO } else { self.radiance[i] / before };
-            let new = (self.radiance[i] + value.radiance) / (before + 1.0);
-            *squares += (value.radiance - old) * (value.radiance - new);
+            *squares += square;
+        }
+        if let Some(spread) = self.spread.get_mut(i) {
+            spread.squares += square.as_vec3();
+            if self.passes[i].is_multiple_of(2) {
+                spread.even += value.radiance.dot(LUMINANCE) as f32;
+            }
         }
         self.radiance[i] += value.radiance;
         self.passes[i] += 1;
-        self.samples[i] += u64::from(value.samples);
+        self.samples[i] = self.samples[i].saturating_add(value.samples);
         if let Some(placed) = self.placed.filter(|placed| placed.is_probe(x, y)) {
             let slot = placed.slot([x, y], [self.x, self.y], self.width);
             self.probes[slot].add(x, y, value);
@@ -214,22 +242,38 @@ pub enum Layer {
 impl Tile {
     /// Samples over all pixels and passes.
     pub fn samples(&self) -> u64 {
-        self.samples.iter().sum()
+        self.samples.iter().map(|&samples| u64::from(samples)).sum()
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.radiance.len() * (size_of::<DVec3>() + size_of::<u32>() + size_of::<u64>())
+        self.radiance.len() * (size_of::<DVec3>() + 2 * size_of::<u32>())
             + self.split.len() * size_of::<SplitSums>()
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
             + self.photons.len() * size_of::<PhotonSums>()
+            + self.spread.len() * size_of::<Spread>()
             + self.bias.len() * size_of::<(DVec3, u32)>()
             + self.probes.len() * size_of::<Probe>()
     }
 
     /// Samples a pass of each pixel.
     pub fn samples_per_pass(&self) -> impl Iterator<Item = f64> {
-        self.samples.iter().zip(&self.passes).map(|(&s, &p)| s as f64 / f64::from(p.max(1)))
+        self.samples.iter().zip(&self.passes).map(|(&s, &p)| f64::from(s) / f64::from(p.max(1)))
+    }
+
+    /// Of pixels with two passes or more.
+    pub fn measured(&self) -> impl Iterator<Item = Measured> {
+        let of = |(i, spread): (usize, &Spread)| {
+            let passes = self.passes[i];
+            let even = f64::from(passes.div_ceil(2));
+            let mean = self.radiance[i] / f64::from(passes);
+            let sum = self.radiance[i].dot(LUMINANCE);
+            let halves =
+                [f64::from(spread.even) / even, (sum - f64::from(spread.even)) / (f64::from(passes) - even)];
+            let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
+            Measured { passes, mean, variance, halves }
+        };
+        self.spread.iter().enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
     }
 
     /// The value of a layer at a pixel given in image coordinates; `most` is the largest number of
@@ -263,10 +307,10 @@ impl Tile {
             Layer::Position => first().position / passes,
             Layer::Depth => DVec3::splat(first().depth / passes),
             Layer::Object => DVec3::splat(f64::from(first().object)),
-            Layer::Samples => DVec3::splat(self.samples[i] as f64),
+            Layer::Samples => DVec3::splat(f64::from(self.samples[i])),
             Layer::Edges => {
                 let floor = 1.0;
-                let share = (self.samples[i] as f64 / passes - floor) / (most - floor).max(1.0);
+                let share = (f64::from(self.samples[i]) / passes - floor) / (most - floor).max(1.0);
                 DVec3::splat(share.clamp(0.0, 1.0))
             }
         }
