@@ -46,7 +46,7 @@ fn rays_are_foretold_by_kind() {
     for text in
         [GLASS.to_owned(), GLASS.replace("textures", "antialiasing: grid(2), textures"), MATT.to_owned()]
     {
-        // The longer the render, the more of it the pilot looks at.
+        // The longer the render, the more of it the pilot looks at; one pilot sees but a part of the image.
         let (planned, stats) =
             (self::planned(&focused(&text).passes(4000)), focused(&text).passes(4).render().rendered.stats);
         assert_eq!(planned.samples, 1000 * stats.samples);

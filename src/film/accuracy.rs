@@ -58,7 +58,7 @@ const STUDENT: f64 = 2.131;
 
 /// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
 /// those of smooth things in one dimension.
-const RATES: [f64; 2] = [0.6, 3.0];
+const RATES: [f64; 2] = [0.8, 3.0];
 
 /// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
 const PHOTON_RATE: f64 = 2.0 / 3.0;
@@ -225,7 +225,8 @@ impl Sums {
             return [s2 / f64::from(passes), PHOTON_RATE];
         }
         let change = (self.changes[0] + self.changes[1]) / self.count.max(1.0);
-        if part < 2 || s2 <= 0.0 {
+        // Before that two rates could make the same change.
+        if part < 4 || s2 <= 0.0 {
             return [s2 / f64::from(passes), 1.0];
         }
         // The change falls as the rate rises.

@@ -92,8 +92,8 @@ impl Sum {
     }
 }
 
-/// Block number `i` of a well-distributed sequence of blocks, which may reach over the image's right and
-/// lower edge no more than over the others.
+/// Block number `i` of a well-distributed sequence of those that the image is divided into: every pixel is as
+/// likely as any other.
 fn block(tracer: &Tracer, pass: u32, i: u32) -> Sum {
     let side = match tracer.plan.antialiasing {
         Antialiasing::Adaptive { .. } => ADAPTIVE_SIDE,
@@ -103,9 +103,8 @@ fn block(tracer: &Tracer, pass: u32, i: u32) -> Sum {
     let camera = &tracer.world.camera;
     let [u, v] = Sequence::new(tracer.plan.seed, Stage::Film, mix(u64::MAX - 1), i).pair();
     let part = |u: f64, size: u32| {
-        let centre = (u * f64::from(size)) as u32;
-        let start = centre.saturating_sub(side / 2);
-        (start, (centre + side.div_ceil(2)).min(size) - start)
+        let start = (u * f64::from(size.div_ceil(side))) as u32 * side;
+        (start, side.min(size - start))
     };
     let ((x, width), (y, height)) = (part(u, camera.width), part(v, camera.height));
     let mut tile = Tile::new(x, y, width, height, trace::layers(&tracer.wants));
