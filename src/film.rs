@@ -1,9 +1,11 @@
 //! The film: tiles become the layers of an image.
 
 mod accuracy;
+mod brightness;
 
-use crate::trace::{Layer, Layers, Tile};
+use crate::trace::{LUMINANCE, Layer, Layers, Tile};
 pub use accuracy::{Accuracy, BIAS_RATE, Part};
+use brightness::Brightness;
 
 /// All tiles of an image.
 #[derive(Clone, Debug)]
@@ -51,23 +53,19 @@ impl Film {
         self.tiles.iter().map(Tile::samples).sum()
     }
 
-    /// Rec. 709 luminance, the mean over all pixels.
-    pub fn mean_luminance(&self) -> f64 {
-        let luminance = crate::math::DVec3::new(0.2126, 0.7152, 0.0722);
-        let of = |tile: &Tile| -> f64 {
-            tile.pixels().map(|(x, y)| tile.value(x, y, Layer::Radiance, 1.0).dot(luminance)).sum()
-        };
-        let sum: f64 = self.tiles.iter().map(of).sum();
-        sum / (f64::from(self.width) * f64::from(self.height)).max(1.0)
-    }
-
-    /// How far it still is from the truth, its mean luminance being known; `None` where that is not.
-    pub fn accuracy(&self, luminance: f64) -> Option<Accuracy> {
-        Accuracy::of(
-            self.tiles.iter().flat_map(Tile::measured),
-            self.tiles.iter().flat_map(Tile::probes),
-            luminance,
-        )
+    /// How far it still is from the truth; `None` where that is unknown.
+    pub fn accuracy(&self) -> Option<Accuracy> {
+        let mut values = vec![0.0; self.width as usize * self.height as usize];
+        for tile in &self.tiles {
+            for (x, y) in tile.pixels() {
+                let value = tile.value(x, y, Layer::Radiance, 1.0).dot(LUMINANCE);
+                values[y as usize * self.width as usize + x as usize] = value as f32;
+            }
+        }
+        let picture = Brightness { width: self.width, height: self.height, values };
+        let (pixels, probes) =
+            (self.tiles.iter().flat_map(Tile::measured), self.tiles.iter().flat_map(Tile::probes));
+        Accuracy::of(pixels, probes, &picture)
     }
 
     pub fn memory_bytes(&self) -> usize {

@@ -85,7 +85,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         refuse_excesses(&tally)?;
     }
     let image = image::assemble(&film, options);
-    let accuracy = film.accuracy(image::mean_luminance(&image));
+    let accuracy = film.accuracy();
     let provenance = image::provenance(loaded, &plan, &world, &tally, &film, passes, accuracy.as_ref());
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);

@@ -17,6 +17,7 @@
 //! What no pass can tell is not in it: the depth limit, three colours, facets of meshes, and paths so rare
 //! that none was found.
 
+use super::brightness::Brightness;
 use crate::math::DVec3;
 use crate::math::random::{combine, mix};
 use crate::trace::{Kind, Measured, Probe};
@@ -67,14 +68,14 @@ const PHOTON_RATE: f64 = 2.0 / 3.0;
 pub const BIAS_RATE: f64 = 2.0 / 3.0;
 
 impl Accuracy {
-    /// Of a picture of mean luminance `luminance`, all its pixels, and its probes, in any order. `None` where
+    /// Of all pixels and the probes of a picture, in any order. `None` where
     /// fewer than two passes are there, or everything is black.
-    pub fn of<'a>(
+    pub(super) fn of<'a>(
         pixels: impl Iterator<Item = Measured>,
         probes: impl Iterator<Item = &'a Probe>,
-        luminance: f64,
+        picture: &Brightness,
     ) -> Option<Accuracy> {
-        let floor = FLOOR * luminance * luminance;
+        let floor = FLOOR * picture.mean() * picture.mean();
         if !(floor > 0.0 && floor.is_finite()) {
             return None;
         }
@@ -88,11 +89,11 @@ impl Accuracy {
         probes.retain(|probe| probe.passes == passes);
         let part = probes.first()?.part;
 
-        let independent = Independent::of(pixels, floor);
+        let independent = Independent::of(pixels, picture, floor);
         let mut groups = vec![Sums::default(); GROUPS as usize];
         for probe in &probes {
             let group = combine(mix(u64::from(probe.x)), u64::from(probe.y)) % GROUPS;
-            groups[group as usize].add(probe, floor);
+            groups[group as usize].add(probe, picture, floor);
         }
         let all = groups.iter().fold(Sums::default(), |sum, group| sum.with(group, 1.0));
         let squared = |sums: &Sums| independent.mean * sums.gain(part, passes) + sums.bias(2);
@@ -131,11 +132,11 @@ struct Independent {
 }
 
 impl Independent {
-    fn of(pixels: impl Iterator<Item = Measured>, floor: f64) -> Independent {
+    fn of(pixels: impl Iterator<Item = Measured>, picture: &Brightness, floor: f64) -> Independent {
         // Whole numbers: their sum is the same in any order.
         let (mut count, mut sum, mut squares) = (0u64, 0u128, 0u128);
         for pixel in pixels {
-            let weight = weight(pixel.mean, pixel.halves, floor);
+            let weight = weight(pixel.mean * picture.trusted(pixel.x, pixel.y, pixel.halves), floor);
             let t = (pixel.variance * weight).element_sum() / (3.0 * f64::from(pixel.passes));
             count += 1;
             sum += (t.min(MOST) * UNIT) as u128;
@@ -151,18 +152,10 @@ impl Independent {
 const UNIT: f64 = (1u64 << 62) as f64;
 const MOST: f64 = 1e6;
 
-/// 1/(R² + floor) by channel, R as the mean has it, but where one half of the passes is much brighter than the
-/// other: then a rare bright path is in it, and the darker half is nearer to the truth.
-fn weight(mean: DVec3, halves: [f64; 2], floor: f64) -> DVec3 {
-    let [darker, brighter] = if halves[0] < halves[1] { halves } else { [halves[1], halves[0]] };
-    let both = 0.5 * (darker + brighter);
-    let scale = if brighter > FAR * darker { (darker.max(0.0) * FAR.sqrt() / both).min(1.0) } else { 1.0 };
-    let r = mean * scale;
+/// 1/(R² + floor) by channel.
+fn weight(r: DVec3, floor: f64) -> DVec3 {
     1.0 / (r * r + floor)
 }
-
-/// Halves of the passes that are this far apart do not show the same thing.
-const FAR: f64 = 2.0;
 
 /// Of a normal distribution, for 95 %.
 const TWO_SIGMA: f64 = 1.96;
@@ -183,8 +176,9 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, probe: &Probe, floor: f64) {
-        let weight = weight(probe.mean_of_all(), probe.halves(), floor);
+    fn add(&mut self, probe: &Probe, picture: &Brightness, floor: f64) {
+        let trusted = picture.trusted(probe.x, probe.y, probe.halves());
+        let weight = weight(probe.mean_of_all() * trusted, floor);
         let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
         self.count += 1.0;
         for kind in Kind::ALL {

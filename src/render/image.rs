@@ -43,14 +43,6 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
     image
 }
 
-/// Rec. 709 luminance of the picture, the mean over its pixels.
-pub(super) fn mean_luminance(image: &Image) -> f64 {
-    let Some(picture) = image.beauty() else { return 0.0 };
-    let mean =
-        |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;
-    picture.channels.iter().zip([0.2126, 0.7152, 0.0722]).map(|((_, values), w)| w * mean(values)).sum()
-}
-
 /// All of it follows from the scene, the seed and the program: no times, no machine.
 pub(super) fn provenance(
     loaded: &Loaded,

@@ -52,7 +52,7 @@ impl Stop {
             return true;
         }
         let Some(target) = self.until.error.filter(|_| passes >= self.check_at) else { return false };
-        let Some(accuracy) = film.accuracy(film.mean_luminance()) else { return false };
+        let Some(accuracy) = film.accuracy() else { return false };
         progress.error(accuracy.error, target);
         if accuracy.error <= target {
             return true;

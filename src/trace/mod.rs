@@ -20,7 +20,7 @@ use crate::index::Caustics;
 use crate::math::{Health, Vec3};
 use crate::plan::Plan;
 pub use path::Scratch;
-pub use probe::{Kind, Probe, Probes};
+pub use probe::{Kind, LUMINANCE, Probe, Probes};
 pub use reference_level::reference_level;
 pub use sample::{Sample, Wants};
 use serde::Serialize;

@@ -18,7 +18,7 @@ pub struct Probes {
 const LEAST: u64 = 4096;
 
 /// Rec. 709.
-pub(super) const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+pub const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 /// The largest square that one probe stands for.
 const WIDEST: u32 = 8;

@@ -79,6 +79,8 @@ struct Spread {
 /// A pixel's mean, and how far it may be off.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
+    pub x: u32,
+    pub y: u32,
     pub passes: u32,
     pub mean: DVec3,
     /// Of one pass.
@@ -271,7 +273,8 @@ impl Tile {
             let halves =
                 [f64::from(spread.even) / even, (sum - f64::from(spread.even)) / (f64::from(passes) - even)];
             let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
-            Measured { passes, mean, variance, halves }
+            let (x, y) = (self.x + i as u32 % self.width, self.y + i as u32 / self.width);
+            Measured { x, y, passes, mean, variance, halves }
         };
         self.spread.iter().enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
     }
