@@ -86,7 +86,8 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     }
     let image = image::assemble(&film, options);
     let accuracy = film.accuracy();
-    let provenance = image::provenance(loaded, &plan, &world, &tally, &film, passes, accuracy.as_ref());
+    let provenance =
+        image::provenance(loaded, &plan, &planned.survey, &world, &tally, &film, passes, accuracy.as_ref());
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);
     let stats = Stats::new(

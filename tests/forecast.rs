@@ -139,8 +139,8 @@ fn effects_left_out_change_what_they_bring() {
     let loaded = focused(GLASS).load();
     let options = Options { passes: Some(0..2), ..Options::default() };
     let planned = render::plan(&loaded, &options, &Silent).expect("a plan");
-    let prices =
-        terrarium::measure::prices(&loaded, &options, &planned.survey.decisions, &Silent).expect("renders");
+    let prices = terrarium::measure::prices(&loaded, &options, 2, &planned.survey.decisions, &Silent)
+        .expect("renders");
     let of = |effect| prices.left_out.iter().find(|row| row.effect == effect).expect("a row");
     for effect in [Effect::Direct, Effect::Reflection, Effect::Refraction, Effect::Textures, Effect::Caustics]
     {
@@ -157,7 +157,7 @@ fn effects_left_out_change_what_they_bring() {
     let clear = focused(MATT).folder(&folder).load();
     let planned = render::plan(&clear, &options, &Silent).expect("a plan");
     let prices =
-        terrarium::measure::prices(&clear, &options, &planned.survey.decisions, &Silent).expect("renders");
+        terrarium::measure::prices(&clear, &options, 2, &planned.survey.decisions, &Silent).expect("renders");
     // Nothing stands between the lamp and the floor.
     let shadows = prices.left_out.iter().find(|row| row.effect == Effect::Shadows).expect("a row");
     assert!(shadows.same && shadows.relative_rms == 0.0);

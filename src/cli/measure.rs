@@ -18,22 +18,27 @@ pub fn table(
     planned: &Planned,
     progress: &dyn Progress,
 ) -> Result<Table, Failure> {
-    Ok(Table(measure::prices(loaded, options, &planned.survey.decisions, progress)?))
+    Ok(Table(measure::prices(loaded, options, planned.passes, &planned.survey.decisions, progress)?))
 }
 
 impl Table {
     /// A row an effect.
     pub fn text(&self) -> String {
-        let mut text = format!("measured: {} with all of it; left out,\n", duration(self.0.seconds));
+        let mut text = format!("measured: {} with all of it\n", duration(self.0.seconds));
         for LeftOut { effect, seconds, relative_rms, mean_change, same } in &self.0.left_out {
-            text += &format!(
-                "  {:15} {} ({:+.1} %) and the image changes by {} (mean {:+.2} %)\n",
-                effect.name(),
-                duration(*seconds),
-                100.0 * (seconds / self.0.seconds - 1.0),
-                if *same { "nothing".to_owned() } else { format!("{:.2} %", 100.0 * relative_rms) },
-                100.0 * mean_change,
-            );
+            let change = match same {
+                true => "the same image".to_owned(),
+                false => {
+                    format!(
+                        "the image changes by {:.2} %, its mean by {:+.2} %",
+                        100.0 * relative_rms,
+                        100.0 * mean_change
+                    )
+                }
+            };
+            let more = 100.0 * (seconds / self.0.seconds - 1.0);
+            text +=
+                &format!("  without {:15} {} ({more:+.1} %), {change}\n", effect.name(), duration(*seconds));
         }
         text
     }

@@ -79,7 +79,12 @@ pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
 fn heading(scene: &Path, loaded: &Loaded, planned: &Planned) -> String {
     let image = &loaded.scene.image;
     let passes = if planned.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", planned.passes) };
-    format!("{}: {} × {} pixels, {passes}", scene.display(), image.width, image.height)
+    let until = match (planned.until.error, planned.until.seconds) {
+        (Some(error), _) => format!(" or more, until the error is {} %", short(100.0 * error)),
+        (None, Some(seconds)) => format!(" in {}", duration(seconds)),
+        (None, None) => String::new(),
+    };
+    format!("{}: {} × {} pixels, {passes}{until}", scene.display(), image.width, image.height)
 }
 
 /// One line an effect, then what all of it takes.
@@ -87,7 +92,8 @@ fn lines(planned: &Planned) -> String {
     let mut text = String::new();
     for decision in &planned.survey.decisions {
         let seconds = planned.prices.of(decision.effect.key());
-        let price = if seconds > 0.0 { format!("; {}", duration(seconds)) } else { String::new() };
+        let price =
+            if decision.on && seconds > 0.0 { format!("; {}", duration(seconds)) } else { String::new() };
         text += &format!("  {decision}{price}\n");
         if decision.effect == Effect::Caustics {
             let dark = planned.survey.lights.iter().filter(|light| decision.on && !light.on);
@@ -121,7 +127,9 @@ fn time(planned: &Planned) -> String {
         .filter(|stage| stage.seconds >= 0.005)
         .map(|stage| format!("{} {}", stage.name, duration(stage.seconds)))
         .collect();
-    format!("about {} ({})", duration(planned.seconds), stages.join(", "))
+    let least = if planned.until.error.is_some() { "at least" } else { "about" };
+    let stages = if stages.is_empty() { String::new() } else { format!(" ({})", stages.join(", ")) };
+    format!("{least} {}{stages}", duration(planned.seconds))
 }
 
 fn memory(planned: &Planned) -> Option<String> {

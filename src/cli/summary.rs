@@ -89,7 +89,12 @@ impl Summary<'_> {
 fn accuracy(stats: &Stats) -> Vec<String> {
     let percent = |share: f64| format!("{} %", significant(100.0 * share));
     let Some(a) = &stats.accuracy else {
-        return vec!["accuracy: unknown, as one pass tells nothing of it (--passes 2 or more)".to_owned()];
+        let why = if stats.passes < 2 {
+            "as one pass tells nothing of it (--passes 2 or more)"
+        } else {
+            "as the picture is black"
+        };
+        return vec![format!("accuracy: unknown, {why}")];
     };
     let [low, high] = a.interval;
     let mut lines = vec![format!(

@@ -2,7 +2,9 @@
 
 use super::decision::{Cause, Decision, few};
 use super::{Effect, lighting};
-use crate::description::{Antialiasing, Indirect, Ior, Material, NAMED_IOR, Scene, Source, Use, uses};
+use crate::description::{
+    Antialiasing, Dispersion, Indirect, Ior, Material, NAMED_IOR, Scene, Source, Use, uses,
+};
 
 /// One decision an effect, in their order.
 pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
@@ -21,10 +23,10 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
                 effect,
                 who(&uses, ["reflects", "reflect"], |m| match (m.reflection.is_zero(), is_interface(m)) {
                     (false, _) => Some(String::new()),
-                    (true, true) => Some(" by Fresnel".to_owned()),
-                    (true, false) => None,
+                    (true, true) if bends(m) => Some(" by Fresnel".to_owned()),
+                    _ => None,
                 }),
-                "no reachable material reflects or transmits",
+                "no reachable material reflects, and none bends light",
             ),
             Effect::Refraction => refraction(&uses),
             Effect::NestedMedia => nested_media(&uses),
@@ -39,8 +41,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::Dispersion => Decision::of(
                 effect,
                 who(&uses, ["disperses", "disperse"], |m| {
-                    let disperses = m.dispersion.is_some() && !m.transmission.is_zero();
-                    disperses.then(String::new)
+                    (disperses(m) && !m.transmission.is_zero()).then(String::new)
                 }),
                 "no reachable material that transmits disperses",
             ),
@@ -51,12 +52,18 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             ),
             Effect::NormalMaps => Decision::of(
                 effect,
-                who(&uses, ["names", "name"], |m| Some(format!(" `{}`", m.normal_map.as_ref()?.texture))),
+                who(&uses, ["names", "name"], |m| {
+                    let map = m.normal_map.as_ref().filter(|map| map.strength != 0.0)?;
+                    Some(format!(" `{}`", map.texture))
+                }),
                 "no reachable material names one",
             ),
             Effect::BumpMaps => Decision::of(
                 effect,
-                who(&uses, ["names", "name"], |m| Some(format!(" `{}`", m.bump_map.as_ref()?.texture))),
+                who(&uses, ["names", "name"], |m| {
+                    let map = m.bump_map.as_ref().filter(|map| map.height_m != 0.0)?;
+                    Some(format!(" `{}`", map.texture))
+                }),
                 "no reachable material names one",
             ),
             Effect::Indirect => indirect(scene),
@@ -107,11 +114,25 @@ pub(super) fn ior(m: &Material) -> f64 {
     }
 }
 
+/// Whether its index depends on the wavelength.
+fn disperses(m: &Material) -> bool {
+    match m.dispersion {
+        None => false,
+        Some(Dispersion::Cauchy(b)) => b != 0.0,
+        // The spread is that of n − 1.
+        Some(Dispersion::Abbe(_)) => ior(m) != 1.0,
+    }
+}
+
+/// Whether its index is another than that of the vacuum.
+fn bends(m: &Material) -> bool {
+    ior(m) != 1.0 || disperses(m)
+}
+
 /// Whether light goes through it as through the vacuum, so that it is not there.
 fn is_nothing(m: &Material) -> bool {
     let clear = Source::Constant(crate::description::Rgb::grey(1.0));
-    ior(m) == 1.0
-        && m.dispersion.is_none()
+    !bends(m)
         && m.transmission == clear
         && m.reflection.is_zero()
         && m.specular.is_zero()

@@ -3,7 +3,7 @@
 use super::Effect;
 use super::decide::{is_specular, who};
 use super::decision::{Cause, Decision, few};
-use crate::description::{Light, Material, Photons, Rgb, Scene, Source, Use};
+use crate::description::{EnvironmentMap, Light, Material, Photons, Rgb, Scene, Source, Use};
 
 /// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
 pub(super) struct Lights<'a> {
@@ -141,7 +141,9 @@ fn is_black(light: &Light) -> bool {
         Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } | Light::Disk { radiance, .. } => {
             radiance.is_zero()
         }
-        Light::Environment { .. } => false,
+        Light::Environment { map, scale, .. } => {
+            *scale == 0.0 || matches!(map, EnvironmentMap::Constant(colour) if colour.is_zero())
+        }
     }
 }
 

@@ -167,12 +167,13 @@ impl Plan {
         if one { 1 } else { SINGLE_PASS_LIGHT_SAMPLES }
     }
 
-    /// One line an effect, and the overrides, for the image's provenance.
+    /// One line an effect, and the overrides: as decided from the description alone.
     pub fn text(&self) -> String {
-        let mut text: String = self.decisions.iter().map(|d| d.to_string() + "\n").collect();
-        if !self.overrides.is_empty() {
-            text += &format!("overrides: {}\n", self.overrides);
-        }
-        text
+        self.decisions.iter().map(|d| d.to_string() + "\n").collect::<String>() + &self.overridden()
+    }
+
+    /// A line of the overrides; nothing without.
+    pub fn overridden(&self) -> String {
+        if self.overrides.is_empty() { String::new() } else { format!("overrides: {}\n", self.overrides) }
     }
 }

@@ -7,6 +7,7 @@ use crate::film::{Accuracy, Film};
 use crate::math::Rare;
 use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance};
 use crate::plan::Plan;
+use crate::survey::Survey;
 use crate::trace::{Layer, Tally};
 
 pub(super) fn assemble(film: &Film, options: &Options) -> Image {
@@ -44,9 +45,11 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
 }
 
 /// All of it follows from the scene, the seed and the program: no times, no machine.
+#[expect(clippy::too_many_arguments, reason = "all that an image says of its making")]
 pub(super) fn provenance(
     loaded: &Loaded,
     plan: &Plan,
+    survey: &Survey,
     world: &World,
     tally: &Tally,
     film: &Film,
@@ -54,7 +57,7 @@ pub(super) fn provenance(
     accuracy: Option<&Accuracy>,
 ) -> Provenance {
     let mut provenance = Provenance::new(&loaded.hash, plan.seed, passes);
-    provenance.plan = plan.text();
+    provenance.plan = survey.text() + &plan.overridden();
     let camera = &world.camera;
     provenance.camera = Some(CameraView {
         eye: (camera.eye + world.origin).to_array(),
