@@ -1,0 +1,140 @@
+//! How far the ladders go in the time that there is: the plan's forecast of every rung, and what is given up
+//! where they are too many.
+
+use super::ladder::{Reach, ladder};
+use super::record::{LeftOut, Rung};
+use super::{Change, Knob};
+use crate::description::{Antialiasing, Loaded, Scene};
+use crate::plan::Plan;
+use crate::render::{self, Options, Progress, RenderError, Silent};
+use std::path::Path;
+
+/// Passes of the scene, and of the ladder, where nothing says how many.
+const MOST_RUNGS: u32 = 10;
+
+/// The longest ladder that makes sense where samples lie where they always lie.
+const MOST_RUNGS_FIXED: u32 = 5;
+
+/// The shortest that shows a slope.
+const FEWEST_RUNGS: u32 = 3;
+
+/// Rungs with their foretold seconds, and the knobs without any.
+pub struct Design {
+    pub rungs: Vec<Rung>,
+    pub left_out: Vec<LeftOut>,
+    /// What was given up, in words.
+    pub notes: Vec<String>,
+}
+
+/// The most passes that are wished for.
+pub fn top(scene: &Scene, ladder: Option<u32>) -> u32 {
+    let fixed = scene.antialiasing != Antialiasing::Progressive;
+    1 << (ladder.unwrap_or(if fixed { MOST_RUNGS_FIXED } else { MOST_RUNGS }).clamp(1, 20) - 1)
+}
+
+/// What a setting takes: seconds before the first tile, and seconds a pass.
+struct Cost {
+    setting: Option<Change>,
+    fixed: f64,
+    pass: f64,
+}
+
+impl Cost {
+    fn of(&self, passes: u32) -> f64 {
+        self.fixed + self.pass * f64::from(passes)
+    }
+}
+
+/// The rungs that `seconds` allow for `seeds` renders each. `worst_passes`: from so many on, the reference is
+/// no longer ten times better.
+pub fn design(
+    loaded: &Loaded,
+    plan: &Plan,
+    options: &Options,
+    asked: &super::Asked,
+    worst_passes: f64,
+    seconds: f64,
+    progress: &dyn Progress,
+) -> Result<Design, RenderError> {
+    let scene = &loaded.scene;
+    let mut notes = Vec::new();
+    let mut wished = top(scene, asked.ladder);
+    let fewest = 1 << (FEWEST_RUNGS - 1);
+    let progressive = scene.antialiasing == Antialiasing::Progressive;
+    while progressive && asked.ladder.is_none() && f64::from(wished) > worst_passes && wished > fewest {
+        wished /= 2;
+    }
+    let mut reach = Reach { top: wished, base: plan.passes.min(wished.max(fewest)) };
+    let rungs = |reach: Reach| ladder(scene, plan, &asked.knobs, reach);
+    let costs = forecast(loaded, options, &rungs(reach).0, progress)?;
+    let price = |rung: &Rung| {
+        costs.iter().find(|cost| cost.setting == rung.change).map_or(0.0, |cost| cost.of(rung.passes))
+    };
+    let wish = reach;
+    loop {
+        let (mut found, left_out) = rungs(reach);
+        found.iter_mut().for_each(|rung| rung.predicted_seconds = price(rung));
+        let sum = |of: &dyn Fn(&&Rung) -> bool| -> f64 {
+            found.iter().filter(of).map(|rung| rung.predicted_seconds).sum::<f64>()
+        };
+        let passes = sum(&|rung| rung.knob == Knob::Passes);
+        let others = sum(&|rung| rung.knob != Knob::Passes);
+        let fits = (passes + others) * f64::from(asked.seeds) <= seconds;
+        let shorter = reach.top > fewest && asked.ladder.is_none();
+        if fits || !(shorter || reach.base > 1) {
+            if reach.top < wish.top {
+                notes.push(format!("the ladder ends at {} passes, as the time allows no more", reach.top));
+            }
+            if reach.base < plan.passes {
+                notes.push(format!(
+                    "other knobs are turned at {} passes instead of the scene's {}, to fit the time and the reference",
+                    reach.base, plan.passes
+                ));
+            }
+            return Ok(Design { rungs: found, left_out, notes });
+        }
+        if shorter && (passes > others || reach.base == 1) {
+            reach.top /= 2;
+            reach.base = reach.base.min(reach.top);
+        } else {
+            reach.base /= 2;
+        }
+    }
+}
+
+/// One plan a setting, of two passes.
+fn forecast(
+    loaded: &Loaded,
+    options: &Options,
+    rungs: &[Rung],
+    progress: &dyn Progress,
+) -> Result<Vec<Cost>, RenderError> {
+    let mut costs: Vec<Cost> = Vec::new();
+    progress.start("forecast", rungs.len() as u64, "settings");
+    for rung in rungs {
+        progress.advance(1);
+        if costs.iter().any(|cost| cost.setting == rung.change) {
+            continue;
+        }
+        // Meshes are not there yet; they take about what spheres do. k changes nothing of note.
+        let alike = matches!(rung.change, Some(Change::Mesh(_) | Change::K(_)));
+        let mut changed = loaded.clone();
+        if let (Some(change), false) = (rung.change, alike) {
+            change.apply(&mut changed.scene, Path::new(""));
+        }
+        let own = costs.iter().find(|cost| cost.setting.is_none() && alike);
+        let cost = match own {
+            Some(own) => Cost { setting: rung.change, ..*own },
+            None => {
+                let options = Options { passes: Some(0..2), ..options.clone() };
+                let planned = render::plan(&changed, &options, &Silent)?;
+                let traced: f64 =
+                    planned.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
+                Cost { setting: rung.change, fixed: planned.seconds - traced, pass: 0.5 * traced }
+            }
+        };
+        costs.push(cost);
+    }
+    progress.finish();
+    Ok(costs)
+}

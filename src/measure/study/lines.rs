@@ -1,0 +1,119 @@
+//! What each knob buys: slopes of its line, and a plain sentence.
+
+use super::record::{Honest, Line, Rung, Study, Summary};
+use super::table::{figures, percent};
+use super::{Knob, reaches, slope};
+use crate::plan::{Antialiasing, Effect, PhotonEngine, Plan};
+
+/// Slopes of noise, and of shrinking radii (Knaus & Zwicker 2011), on logarithmic axes of error over passes.
+const OF_NOISE: f64 = -0.5;
+const OF_RADII: f64 = -1.0 / 3.0;
+
+/// Adds lines and honesty, and says whether every rung has all its runs.
+pub fn conclude(study: &mut Study, plan: &Plan) {
+    let mut names: Vec<(Knob, String)> = Vec::new();
+    for rung in &study.rungs {
+        let name = (rung.knob, rung.line.clone());
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    study.lines = names.into_iter().filter_map(|(knob, line)| of(study, plan, knob, line)).collect();
+    let stated = study.rungs.iter().flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
+    study.honest = stated.fold(Honest::default(), |sum, (error, [low, high])| Honest {
+        held: sum.held + u32::from((low..=high).contains(&error)),
+        of: sum.of + 1,
+    });
+    study.complete = study.rungs.iter().all(|rung| rung.runs.len() == study.asked.seeds as usize);
+}
+
+type Point<'a> = (&'a Rung, &'a Summary);
+
+fn of(study: &Study, plan: &Plan, knob: Knob, line: String) -> Option<Line> {
+    let points: Vec<Point> = study.rendered().filter(|(r, _)| r.knob == knob && r.line == line).collect();
+    let pairs = |of: &dyn Fn(&Point) -> Option<[f64; 2]>| -> Option<f64> {
+        slope(&points.iter().filter_map(of).collect::<Vec<_>>())
+    };
+    let error_by_seconds = pairs(&|(_, s)| Some([s.seconds[0], s.error[0]]));
+    let error_by_number = pairs(&|(rung, s)| Some([rung.x?, s.error[0]]));
+    let seconds_by_number = pairs(&|(rung, s)| Some([rung.x?, s.seconds[0]]));
+    let theory = if knob == Knob::Passes { theory(plan) } else { None };
+    let sentence = sentence(study, knob, &line, &points, error_by_number, seconds_by_number)?;
+    Some(Line { knob, line, error_by_seconds, error_by_number, seconds_by_number, theory, sentence })
+}
+
+/// What theory says of passes: noise alone, or with photons whose radius shrinks. Nothing where samples lie
+/// where they always lie.
+fn theory(plan: &Plan) -> Option<[f64; 2]> {
+    if plan.antialiasing != Antialiasing::Progressive {
+        return None;
+    }
+    let indirect = plan.is_on(Effect::Indirect).then_some(plan.indirect_photons);
+    let photons = plan.photons.or(indirect);
+    match photons.map(|photons| photons.engine) {
+        None => Some([OF_NOISE; 2]),
+        Some(PhotonEngine::Progressive { .. }) => Some([OF_NOISE, OF_RADII]),
+        Some(PhotonEngine::Classic { .. }) => None,
+    }
+}
+
+fn sentence(
+    study: &Study,
+    knob: Knob,
+    line: &str,
+    points: &[Point],
+    error: Option<f64>,
+    seconds: Option<f64>,
+) -> Option<String> {
+    let ((first, from), (last, to)) = (points.first()?, points.last()?);
+    let mut text = match (error, seconds) {
+        (Some(error), Some(seconds)) => {
+            let (step, factor) = knob.step();
+            let step = if line == "progressive" { "four times the passes" } else { step };
+            let by = |slope: f64| figures(libm::pow(factor, slope));
+            format!("{}: error ×{} for ×{} time", capital(step), by(error), by(seconds))
+        }
+        _ => format!(
+            "{}: error {} in {} s",
+            capital(&first.value),
+            percent(from.error[0]),
+            figures(from.seconds[0])
+        ),
+    };
+    if points.len() > 1 {
+        let at = |rung: &Rung, s: &Summary| {
+            format!("{} in {} s ({})", percent(s.error[0]), figures(s.seconds[0]), rung.value)
+        };
+        text += &format!("; from {} to {}", at(first, from), at(last, to));
+        let (best, least) = points.iter().min_by(|a, b| a.1.error[0].total_cmp(&b.1.error[0]))?;
+        if best.name != last.name {
+            text += &format!("; the least error is at {}: {}", best.value, percent(least.error[0]));
+        }
+    }
+    if line == "adaptive" {
+        text += &beside_grid(study, from);
+    }
+    text.push('.');
+    Some(text)
+}
+
+/// How the time of adaptive antialiasing compares with that of the grid of its error.
+fn beside_grid(study: &Study, adaptive: &Summary) -> String {
+    let grid = study.rendered().filter(|(rung, _)| rung.line == "grid");
+    let grid: Vec<[f64; 2]> = grid.map(|(_, s)| [s.seconds[0], s.error[0]]).collect();
+    let least = grid.iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
+    let (error, seconds) = (adaptive.error[0], adaptive.seconds[0]);
+    match reaches(&grid, error) {
+        Some(of_grid) => {
+            let factor = of_grid / seconds;
+            format!("; a grid of that error takes {} s, ×{}", figures(of_grid), figures(factor))
+        }
+        None if error < least => "; no grid that was tried is as good".to_owned(),
+        None => "; every grid that was tried is better".to_owned(),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
+}
