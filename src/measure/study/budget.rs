@@ -18,6 +18,9 @@ const MOST_RUNGS_FIXED: u32 = 5;
 /// The shortest that shows a slope.
 const FEWEST_RUNGS: u32 = 3;
 
+/// With fewer passes than this, edges hide what the other knobs do.
+const FEWEST_BASE: u32 = 4;
+
 /// Rungs with their foretold seconds, and the knobs without any.
 pub struct Design {
     pub rungs: Vec<Rung>,
@@ -71,35 +74,55 @@ pub fn design(
         costs.iter().find(|cost| cost.setting == rung.change).map_or(0.0, |cost| cost.of(rung.passes))
     };
     let wish = reach;
+    let least = plan.passes.min(FEWEST_BASE);
     loop {
         let (mut found, left_out) = rungs(reach);
         found.iter_mut().for_each(|rung| rung.predicted_seconds = price(rung));
-        let sum = |of: &dyn Fn(&&Rung) -> bool| -> f64 {
-            found.iter().filter(of).map(|rung| rung.predicted_seconds).sum::<f64>()
+        let sum = |ladder: bool| -> f64 {
+            let of = found.iter().filter(|rung| (rung.knob == Knob::Passes) == ladder);
+            of.map(|rung| rung.predicted_seconds).sum()
         };
-        let passes = sum(&|rung| rung.knob == Knob::Passes);
-        let others = sum(&|rung| rung.knob != Knob::Passes);
-        let fits = (passes + others) * f64::from(asked.seeds) <= seconds;
+        let (passes, others) = (sum(true), sum(false));
+        let seeds = f64::from(asked.seeds);
         let shorter = reach.top > fewest && asked.ladder.is_none();
-        if fits || !(shorter || reach.base > 1) {
+        if (passes + others) * seeds <= seconds || !(shorter || reach.base > least) {
             if reach.top < wish.top {
                 notes.push(format!("the ladder ends at {} passes, as the time allows no more", reach.top));
             }
             if reach.base < plan.passes {
                 notes.push(format!(
-                    "other knobs are turned at {} passes instead of the scene's {}, to fit the time and the reference",
+                    "other knobs are turned at {} passes instead of the scene's {}, to fit the time and the \
+                     reference",
                     reach.base, plan.passes
                 ));
             }
+            let dropped = drop_dear(&mut found, seconds / seeds);
+            if !dropped.is_empty() {
+                notes.push(format!("left out, as they take too long: {}", dropped.join(", ")));
+            }
             return Ok(Design { rungs: found, left_out, notes });
         }
-        if shorter && (passes > others || reach.base == 1) {
+        if shorter && (passes > others || reach.base <= least) {
             reach.top /= 2;
-            reach.base = reach.base.min(reach.top);
+            reach.base = reach.base.min(reach.top.max(least));
         } else {
-            reach.base /= 2;
+            reach.base = (reach.base / 2).max(least);
         }
     }
+}
+
+/// Drops the dearest rungs, not those of the ladder of passes, until all of them take `seconds`. Returns their
+/// names.
+fn drop_dear(rungs: &mut Vec<Rung>, seconds: f64) -> Vec<String> {
+    let mut dropped = Vec::new();
+    while rungs.iter().map(|rung| rung.predicted_seconds).sum::<f64>() > seconds {
+        let others = rungs.iter().enumerate().filter(|(_, rung)| rung.knob != Knob::Passes);
+        let dearest = others.max_by(|a, b| a.1.predicted_seconds.total_cmp(&b.1.predicted_seconds));
+        let Some((at, _)) = dearest else { break };
+        let rung = rungs.remove(at);
+        dropped.push(format!("{} {}", rung.knob.key().replace('_', " "), rung.value));
+    }
+    dropped
 }
 
 /// One plan a setting, of two passes.

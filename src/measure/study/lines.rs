@@ -2,8 +2,8 @@
 
 use super::record::{Honest, Line, Rung, Study, Summary};
 use super::table::{figures, percent};
-use super::{Knob, reaches, slope};
-use crate::plan::{Antialiasing, Effect, PhotonEngine, Plan};
+use super::{Change, Knob, reaches, slope};
+use crate::plan::{Antialiasing, Effect, PhotonBudget, PhotonEngine, Plan};
 
 /// Slopes of noise, and of shrinking radii (Knaus & Zwicker 2011), on logarithmic axes of error over passes.
 const OF_NOISE: f64 = -0.5;
@@ -19,12 +19,23 @@ pub fn conclude(study: &mut Study, plan: &Plan) {
         }
     }
     study.lines = names.into_iter().filter_map(|(knob, line)| of(study, plan, knob, line)).collect();
-    let stated = study.rungs.iter().flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
+    let shown = study.rungs.iter().filter(|rung| shows_its_error(rung, plan));
+    let stated = shown.flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
     study.honest = stated.fold(Honest::default(), |sum, (error, [low, high])| Honest {
         held: sum.held + u32::from((low..=high).contains(&error)),
         of: sum.of + 1,
     });
     study.complete = study.rungs.iter().all(|rung| rung.runs.len() == study.asked.seeds as usize);
+}
+
+/// Whether passes of this rung show all of its error: not where samples or photons are always the same.
+fn shows_its_error(rung: &Rung, plan: &Plan) -> bool {
+    let antialiasing = match rung.change {
+        Some(Change::Antialiasing(kind)) => kind,
+        _ => plan.antialiasing,
+    };
+    let classic = |photons: &PhotonBudget| matches!(photons.engine, PhotonEngine::Classic { .. });
+    antialiasing == Antialiasing::Progressive && !plan.photons.as_ref().is_some_and(classic)
 }
 
 type Point<'a> = (&'a Rung, &'a Summary);

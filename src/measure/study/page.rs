@@ -13,26 +13,26 @@ const FORM: &str = include_str!("page.html");
 /// Of the study in this folder, whose pictures are written already.
 pub fn html(study: &Study, chart: &Drawing, folder: &Path) -> String {
     let image = |file: &str| std::fs::read(folder.join(file)).map_or(String::new(), |bytes| data_uri(&bytes));
-    let mut pictures = serde_json::Map::new();
+    let mut pictures = Vec::new();
     let mut add = |name: &str, title: String, picture: &str, map: Option<&str>| {
         let map = map.map(image).filter(|uri| !uri.is_empty());
-        let entry = serde_json::json!({ "title": title, "picture": image(picture), "map": map });
-        pictures.insert(name.to_owned(), entry);
+        let entry =
+            serde_json::json!({ "name": name, "title": title, "picture": image(picture), "map": map });
+        pictures.push(entry);
     };
     for (rung, s) in study.rendered() {
-        let title =
-            format!("{} {}: {} in {} s", rung.line, rung.value, percent(s.error[0]), figures(s.seconds[0]));
+        let title = format!("{}: {} in {} s", rung.title(), percent(s.error[0]), figures(s.seconds[0]));
         add(&rung.name, title, &rung.picture(), Some(&rung.error_map()));
     }
     add("reference", "reference".to_owned(), "pictures/reference.png", None);
     // `</script>` within a text would end the script
-    let pictures = serde_json::Value::Object(pictures).to_string().replace("</", "<\\/");
+    let pictures = serde_json::Value::Array(pictures).to_string().replace("</", "<\\/");
 
     let parts = [
         ("{{scene}}", escaped(&study.scene)),
         ("{{summary}}", summary(study)),
         ("{{sentences}}", sentences(study)),
-        ("{{plot}}", svg(chart)),
+        ("{{plot}}", svg(chart).replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)),
         ("{{table}}", table(study)),
         ("{{width}}", study.subject.width.to_string()),
         ("{{pictures}}", pictures),

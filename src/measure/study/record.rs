@@ -30,7 +30,8 @@ pub struct Study {
     pub notes: Vec<String>,
     /// What the knobs buy; empty until the study is complete.
     pub lines: Vec<Line>,
-    /// Of all runs after 2 or more passes, how often the stated interval held the true error.
+    /// Of all runs whose passes show their error (2 or more, progressive), how often the stated interval held
+    /// the true error.
     pub honest: Honest,
     pub complete: bool,
 }
@@ -78,7 +79,7 @@ pub struct Reference {
     pub error: Option<f64>,
     pub interval: Option<[f64; 2]>,
     /// Of a rendered one: the passes after which the error would be ten times its own.
-    pub rungs_to_passes: Option<f64>,
+    pub tenfold_passes: Option<f64>,
 }
 
 /// One setting, and what its renders were like.
@@ -197,6 +198,12 @@ impl Rung {
 
     pub fn error_map(&self) -> String {
         format!("errors/{}.png", self.name)
+    }
+
+    /// What a reader calls it: `passes 8`, `grid(3)`.
+    pub fn title(&self) -> String {
+        let own = self.line == self.knob.key();
+        if own { format!("{} {}", self.line.replace('_', " "), self.value) } else { self.value.clone() }
     }
 
     /// Whether it is the same render, whatever its name and price.

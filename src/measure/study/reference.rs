@@ -149,7 +149,7 @@ pub fn rendered(
         seconds: Some(began.elapsed().as_secs_f64()),
         error: accuracy.map(|accuracy| accuracy.error),
         interval: accuracy.map(|accuracy| accuracy.interval),
-        rungs_to_passes: accuracy.map(|a| a.passes_for(a.error / BETTER)).filter(|n| n.is_finite()),
+        tenfold_passes: accuracy.map(|a| a.passes_for(a.error / BETTER)).filter(|n| n.is_finite()),
     };
     Ok(Rendered { image: FileImage::from(&done.image), file, reference, files: done.files })
 }

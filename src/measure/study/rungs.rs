@@ -188,9 +188,8 @@ pub fn png(picture: &ScreenPicture) -> Result<Vec<u8>, StudyError> {
 fn line(rung: &Rung, run: &Run) -> String {
     let stated = run.stated.map_or("unknown".to_owned(), |e| format!("{} %", table::figures(100.0 * e)));
     format!(
-        "{} {}: error {} % (stated: {stated}) in {} s",
-        rung.line,
-        rung.value,
+        "{}: error {} % (stated: {stated}) in {} s",
+        rung.title(),
         table::figures(100.0 * run.error),
         table::figures(run.seconds)
     )

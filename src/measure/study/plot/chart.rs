@@ -51,13 +51,7 @@ pub fn chart(study: &Study) -> Drawing {
         drawing.line(points.iter().map(|(_, s)| at(s)).collect(), colour, 1.6);
         for (rung, s) in points {
             ranges(&mut drawing, s, at(s), &x, &y, colour);
-            let title = format!(
-                "{} {}: {} in {} s",
-                rung.line,
-                rung.value,
-                percent(s.error[0]),
-                figures(s.seconds[0])
-            );
+            let title = format!("{}: {} in {} s", rung.title(), percent(s.error[0]), figures(s.seconds[0]));
             let (at, name) = (at(s), rung.name.clone());
             drawing.marks.push(Mark::Dot { at, radius: 3.2, colour, filled: true, name, title });
         }
