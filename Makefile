@@ -118,8 +118,8 @@ STUDY = '$(TERRARIUM)' study --time $(STUDY_TIME)
 study: build
 	$(STUDY) scenes/yardstick/caustic-sphere.ron -o study/caustic-sphere --set image.width=128 --set image.height=128
 	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=320 --set image.height=180
-	$(STUDY) scenes/antialiasing.ron -o study/antialiasing --set image.width=400 --set image.height=225 \
-	    --without caustics
+	$(STUDY) scenes/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
+	    --knobs antialiasing,threshold,depth
 	@mkdir -p docs/images
 	@for name in caustic-sphere terrarium antialiasing; do \
 	    cp "study/$$name/plot.png" "docs/images/study-$$name.png" || exit 1; done

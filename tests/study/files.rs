@@ -115,7 +115,13 @@ fn photons_and_k_are_knobs_where_photons_run() {
         .replace("\"red\": (diffuse: (0.7, 0.1, 0.1))", "\"red\": (transmission: 1, ior: 1.5)")
         .replace("materials:", "photons: progressive(count: 1600, k: 12), materials:");
     let folder = folder(&glass);
-    let outcome = study(folder.path(), &["--knobs", "passes,photons,k", "--seeds", "1", "--time", "4s"]);
+    let rendered = terrarium(
+        folder.path(),
+        &["render", "scene.ron", "-o", "truth.exr", "--passes", "40", "--seed", "9"],
+    );
+    assert_eq!(rendered.code, Some(0), "{}", rendered.stderr);
+    let knobs = ["--knobs", "passes,photons,k", "--seeds", "1", "--reference", "truth.exr"];
+    let outcome = study(folder.path(), &knobs);
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     let found = json(folder.path());
     let values = |knob: &str| -> Vec<String> {

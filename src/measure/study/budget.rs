@@ -125,38 +125,45 @@ fn drop_dear(rungs: &mut Vec<Rung>, seconds: f64) -> Vec<String> {
     dropped
 }
 
-/// One plan a setting, of two passes.
+/// What settings take, from plans of two passes. Those that take about what the scene itself takes are not
+/// planned: meshes for spheres, k, and all but the most photons and shadow rays.
 fn forecast(
     loaded: &Loaded,
     options: &Options,
     rungs: &[Rung],
     progress: &dyn Progress,
 ) -> Result<Vec<Cost>, RenderError> {
-    let mut costs: Vec<Cost> = Vec::new();
+    let options = Options { passes: Some(0..2), ..options.clone() };
+    let plan = |setting: Option<Change>| -> Result<Cost, RenderError> {
+        let mut changed = loaded.clone();
+        if let Some(change) = setting {
+            change.apply(&mut changed.scene, Path::new(""));
+        }
+        let planned = render::plan(&changed, &options, &Silent)?;
+        let traced: f64 = planned.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
+        Ok(Cost { setting, fixed: planned.seconds - traced, pass: 0.5 * traced })
+    };
+    let most = |of: fn(Change) -> Option<u32>| rungs.iter().filter_map(|rung| of(rung.change?)).max();
+    let photons = most(|change| if let Change::Photons(n) = change { Some(n) } else { None });
+    let rays = most(|change| if let Change::ShadowRays(n) = change { Some(n) } else { None });
+    let alike = |change: Change| match change {
+        Change::Antialiasing(_) => false,
+        Change::K(_) | Change::Mesh(_) => true,
+        Change::Photons(n) => Some(n) < photons,
+        Change::ShadowRays(n) => Some(n) < rays,
+    };
     progress.start("forecast", rungs.len() as u64, "settings");
+    let own = plan(None)?;
+    let mut costs = vec![Cost { ..own }];
     for rung in rungs {
         progress.advance(1);
         if costs.iter().any(|cost| cost.setting == rung.change) {
             continue;
         }
-        // Meshes are not there yet; they take about what spheres do. k changes nothing of note.
-        let alike = matches!(rung.change, Some(Change::Mesh(_) | Change::K(_)));
-        let mut changed = loaded.clone();
-        if let (Some(change), false) = (rung.change, alike) {
-            change.apply(&mut changed.scene, Path::new(""));
-        }
-        let own = costs.iter().find(|cost| cost.setting.is_none() && alike);
-        let cost = match own {
-            Some(own) => Cost { setting: rung.change, ..*own },
-            None => {
-                let options = Options { passes: Some(0..2), ..options.clone() };
-                let planned = render::plan(&changed, &options, &Silent)?;
-                let traced: f64 =
-                    planned.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
-                Cost { setting: rung.change, fixed: planned.seconds - traced, pass: 0.5 * traced }
-            }
-        };
-        costs.push(cost);
+        costs.push(match rung.change {
+            Some(change) if !alike(change) => plan(rung.change)?,
+            setting => Cost { setting, ..own },
+        });
     }
     progress.finish();
     Ok(costs)

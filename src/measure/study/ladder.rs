@@ -78,18 +78,13 @@ fn numbers(
 }
 
 fn passes(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String> {
-    let by_chance = [
-        Effect::SoftShadows,
-        Effect::Caustics,
-        Effect::Indirect,
-        Effect::Reflection,
-        Effect::DepthOfField,
-        Effect::Environment,
-    ];
+    let by_chance =
+        [Effect::SoftShadows, Effect::Caustics, Effect::Indirect, Effect::DepthOfField, Effect::Environment];
     if scene.antialiasing != Antialiasing::Progressive && !by_chance.iter().any(|effect| plan.is_on(*effect))
     {
         return Err(format!(
-            "every pass is the same: with `antialiasing: {}` nothing in this scene is decided by chance",
+            "every pass is all but the same: with `antialiasing: {}` and nothing blurred, only branches of little \
+             weight are left to chance",
             spelt(scene.antialiasing)
         ));
     }
@@ -143,7 +138,12 @@ fn antialiasing(scene: &Scene, reach: Reach) -> Vec<Rung> {
     let mut rungs = vec![kind(Antialiasing::None, "grid", "none".to_owned(), 1.0, 1)];
     rungs.extend([2, 3, 4, 8].map(grid));
     rungs.push(kind(fine, "adaptive", spelt(fine).replace("threshold: ", "").replace("depth: ", ""), 1.0, 1));
-    for side in SIDES.into_iter().filter(|side| side * side <= reach.top.max(SIDES[0] * SIDES[0])) {
+    // The reference limits the passes of a progressive scene.
+    let most = match scene.antialiasing {
+        Antialiasing::Progressive => reach.top.max(SIDES[0] * SIDES[0]),
+        _ => u32::MAX,
+    };
+    for side in SIDES.into_iter().filter(|side| side * side <= most) {
         let value = format!("progressive, {} passes", side * side);
         rungs.push(kind(Antialiasing::Progressive, "progressive", value, f64::from(side), side * side));
     }

@@ -9,6 +9,10 @@ use crate::plan::{Antialiasing, Effect, PhotonBudget, PhotonEngine, Plan};
 const OF_NOISE: f64 = -0.5;
 const OF_RADII: f64 = -1.0 / 3.0;
 
+/// Logarithms of factors that are none: of error, and of time, which is noisy.
+const NOTHING: f64 = 0.01;
+const SAME_TIME: f64 = 0.05;
+
 /// Adds lines and honesty, and says whether every rung has all its runs.
 pub fn conclude(study: &mut Study, plan: &Plan) {
     let mut names: Vec<(Knob, String)> = Vec::new();
@@ -81,8 +85,16 @@ fn sentence(
         (Some(error), Some(seconds)) => {
             let (step, factor) = knob.step();
             let step = if line == "progressive" { "four times the passes" } else { step };
-            let by = |slope: f64| figures(libm::pow(factor, slope));
-            format!("{}: error ×{} for ×{} time", capital(step), by(error), by(seconds))
+            let [error, seconds] = [error, seconds].map(|slope| libm::pow(factor, slope));
+            let error = match libm::log(error).abs() < NOTHING {
+                true => "as before".to_owned(),
+                false => format!("×{}", figures(error)),
+            };
+            let seconds = match libm::log(seconds).abs() < SAME_TIME {
+                true => "in the same time".to_owned(),
+                false => format!("for ×{} time", figures(seconds)),
+            };
+            format!("{}: error {error} {seconds}", capital(step))
         }
         _ => format!(
             "{}: error {} in {} s",

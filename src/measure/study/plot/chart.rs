@@ -16,8 +16,8 @@ const GREY: Colour = [110, 110, 110];
 const GRID: Colour = [228, 228, 228];
 const FRONT: Colour = [205, 214, 226];
 
-/// Okabe & Ito's colours, which colour-blind people tell apart; without the yellow, which is too light.
-const COLOURS: [Colour; 7] = [
+/// Okabe & Ito's colours, which colour-blind people tell apart; without the yellow, which is too light, and with a brown.
+const COLOURS: [Colour; 8] = [
     [0, 114, 178],
     [213, 94, 0],
     [0, 158, 115],
@@ -25,6 +25,7 @@ const COLOURS: [Colour; 7] = [
     [230, 159, 0],
     [86, 180, 233],
     [60, 60, 60],
+    [140, 86, 75],
 ];
 
 /// The plot of all rungs that were rendered.
