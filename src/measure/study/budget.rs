@@ -48,8 +48,8 @@ impl Cost {
     }
 }
 
-/// The rungs that `seconds` allow for `seeds` renders each. `worst_passes`: from so many on, the reference is
-/// no longer ten times better.
+/// The rungs that `seconds` allow for `seeds` renders each. `worst_passes`: with more, the reference would
+/// not be better by enough.
 pub fn design(
     loaded: &Loaded,
     plan: &Plan,

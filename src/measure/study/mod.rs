@@ -105,7 +105,7 @@ pub fn study(
         Some(study) => study.clone(),
         None => {
             let seconds = RUNGS_TIME * left();
-            let worst_passes = reference.tenfold_passes.unwrap_or(f64::INFINITY);
+            let worst_passes = reference.ladder_passes.unwrap_or(f64::INFINITY);
             let design = budget::design(loaded, &plan, options, asked, worst_passes, seconds, progress)?;
             design.notes.iter().for_each(|note| progress.note(note));
             Study {

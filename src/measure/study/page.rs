@@ -58,7 +58,7 @@ fn summary(study: &Study) -> String {
     }
     if study.rendered().any(|(_, s)| s.near_reference) {
         lines.push(
-            "Errors with a * are less than ten times that of the reference: take them for rough.".to_owned(),
+            "Errors with a * are less than ten times that of the reference, which adds to them: 3 % to one of four times.".to_owned(),
         );
     }
     lines.extend(study.notes.iter().map(|note| format!("{note}.")));

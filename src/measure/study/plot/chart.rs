@@ -6,7 +6,7 @@ use super::scale::Scale;
 use crate::measure::study::record::{Rung, Study, Summary};
 use crate::measure::study::table::{figures, percent};
 
-const SIZE: [f64; 2] = [860.0, 520.0];
+const SIZE: [f64; 2] = [884.0, 520.0];
 /// Left, right, top and bottom of the plotted field.
 const FIELD: [f64; 4] = [74.0, 560.0, 44.0, 462.0];
 const LEGEND: f64 = 584.0;
@@ -117,7 +117,7 @@ fn guides(drawing: &mut Drawing, study: &Study, shown: &[(&Rung, &Summary)], x: 
     let (Some((_, from)), Some((_, to))) = (points.first(), points.last()) else { return };
     let mut slopes: Vec<f64> = line.theory.into_iter().flatten().collect();
     slopes.dedup();
-    for slope in slopes {
+    for (i, slope) in slopes.into_iter().enumerate() {
         // Backwards from the last point: there the fixed costs count least.
         let (late, error) = (to.seconds[0], to.error[0]);
         let fits = |seconds: f64| error * libm::pow(seconds / late, slope);
@@ -133,7 +133,7 @@ fn guides(drawing: &mut Drawing, study: &Study, shown: &[(&Rung, &Summary)], x: 
                 1.0,
             );
             let text = format!("theory {}", signed(slope));
-            let place = [x.place(early) + 4.0, y.place(fits(early)) - 4.0];
+            let place = [x.place(early) + 4.0, y.place(fits(early)) + if i == 0 { -4.0 } else { 12.0 }];
             drawing.text(place, 10.0, Anchor::Start, GREY, &text);
         }
     }
