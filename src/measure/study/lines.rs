@@ -120,19 +120,24 @@ fn sentence(
     Some(text)
 }
 
-/// How the time of adaptive antialiasing compares with that of the grid of its error.
+/// How adaptive antialiasing compares with the grid of its error: in time, and in camera rays, which do not
+/// depend on what else the machine does.
 fn beside_grid(study: &Study, adaptive: &Summary) -> String {
-    let grid = study.rendered().filter(|(rung, _)| rung.line == "grid");
-    let grid: Vec<[f64; 2]> = grid.map(|(_, s)| [s.seconds[0], s.error[0]]).collect();
-    let least = grid.iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
-    let (error, seconds) = (adaptive.error[0], adaptive.seconds[0]);
-    match reaches(&grid, error) {
-        Some(of_grid) => {
-            let factor = of_grid / seconds;
-            format!("; a grid of that error takes {} s, ×{}", figures(of_grid), figures(factor))
-        }
-        None if error < least => "; no grid that was tried is as good".to_owned(),
-        None => "; every grid that was tried is better".to_owned(),
+    let grid = |of: fn(&Summary) -> f64| -> Vec<[f64; 2]> {
+        let grid = study.rendered().filter(|(rung, _)| rung.line == "grid");
+        grid.map(|(_, s)| [of(s), s.error[0]]).collect()
+    };
+    let (by_time, by_rays) = (grid(|s| s.seconds[0]), grid(|s| s.camera_rays as f64));
+    let error = adaptive.error[0];
+    match (reaches(&by_time, error), reaches(&by_rays, error)) {
+        (Some(seconds), Some(rays)) => format!(
+            "; a grid of that error takes {} s, ×{}, and ×{} as many camera rays",
+            figures(seconds),
+            figures(seconds / adaptive.seconds[0]),
+            figures(rays / adaptive.camera_rays as f64)
+        ),
+        _ if by_time.iter().all(|point| point[1] > error) => "; no grid that was tried is as good".to_owned(),
+        _ => "; every grid that was tried is better".to_owned(),
     }
 }
 

@@ -120,8 +120,8 @@ pub struct Run {
     pub stated: Option<f64>,
     pub interval: Option<[f64; 2]>,
     pub stated_bias: Option<f64>,
-    /// Camera samples.
-    pub samples: u64,
+    /// Rays from the camera.
+    pub camera_rays: u64,
     /// Highest memory of the process so far into this render, where the system tells it.
     pub peak_bytes: Option<u64>,
 }
@@ -136,7 +136,7 @@ pub struct Summary {
     /// Medians of both ends.
     pub interval: Option<[f64; 2]>,
     pub peak_bytes: Option<u64>,
-    pub samples: u64,
+    pub camera_rays: u64,
     /// Whether no other rung is both as fast and as good.
     pub pareto: bool,
     /// Whether the reference's own error is more than a tenth of this one: the truth is not well enough known.

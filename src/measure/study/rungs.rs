@@ -126,7 +126,7 @@ fn one(
         stated: accuracy.map(|accuracy| accuracy.error),
         interval: accuracy.map(|accuracy| accuracy.interval),
         stated_bias: accuracy.map(|accuracy| accuracy.bias),
-        samples: done.stats.samples,
+        camera_rays: done.stats.rays.camera,
         peak_bytes,
     };
     Ok((run, (image, done.files)))
@@ -212,7 +212,7 @@ fn sum_up(study: &mut Study) {
                 stated: of(&|run| run.stated),
                 interval: end(0).zip(end(1)).map(|(low, high)| [low, high]),
                 peak_bytes: runs.iter().filter_map(|run| run.peak_bytes).max(),
-                samples: runs.first().map_or(0, |run| run.samples),
+                camera_rays: runs.first().map_or(0, |run| run.camera_rays),
                 pareto: false,
                 near_reference: BETTER * error[0] < reference,
             });

@@ -23,7 +23,7 @@ pub const COLUMNS: [&str; 22] = [
     "stated_low",
     "stated_high",
     "peak_bytes",
-    "samples",
+    "camera_rays",
     "pareto",
     "near_reference",
 ];
@@ -64,7 +64,7 @@ fn row(rung: &Rung, result: &Summary) -> [String; 22] {
         end(0),
         end(1),
         result.peak_bytes.map_or(String::new(), |bytes| bytes.to_string()),
-        result.samples.to_string(),
+        result.camera_rays.to_string(),
         result.pareto.to_string(),
         result.near_reference.to_string(),
     ]
