@@ -54,6 +54,15 @@ pub fn render(
             if rung.runs.len() > round as usize {
                 continue;
             }
+            // The same setting may stand on several lines: it is rendered once.
+            let twin = |other: &&Rung| {
+                other.name != rung.name && other.is_like(rung) && other.runs.len() > round as usize
+            };
+            if let Some(twin) = study.rungs.iter().find(twin).cloned() {
+                copy_pictures(&twin, &study.rungs[at], folder)?;
+                study.rungs[at].runs.push(twin.runs[round as usize]);
+                continue;
+            }
             let expected = rung.result.map_or(rung.predicted_seconds, |result| result.seconds[0]);
             let late = Instant::now() + std::time::Duration::from_secs_f64(expected) > deadline;
             let needed = round == 0 && place_in_order < ALWAYS;
@@ -162,6 +171,15 @@ fn draw(
     let exposure = loaded.scene.image.exposure_ev;
     put(&folder.join(rung.picture()), &png(&shown(picture, image.0.width, exposure))?)?;
     put(&folder.join(rung.error_map()), &png(&heat_map(picture, planes, image.0.width))?)
+}
+
+/// The pictures of another rung with the same setting.
+fn copy_pictures(from: &Rung, to: &Rung, folder: &Path) -> Result<(), StudyError> {
+    for [from, to] in [[from.picture(), to.picture()], [from.error_map(), to.error_map()]] {
+        let bytes = std::fs::read(folder.join(&from));
+        put(&folder.join(&to), &bytes.map_err(|error| StudyError::Output(place(folder, &from), error))?)?;
+    }
+    Ok(())
 }
 
 /// The reference as the rungs are shown.
