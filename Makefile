@@ -9,7 +9,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names test lint bench yardstick honesty assets schema install clean help FORCE
+.PHONY: all build renders images names test lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -109,6 +109,21 @@ yardstick: build
 honesty: build
 	@command -v python3 >/dev/null || { echo "make honesty needs python3" >&2; exit 2; }
 	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/honesty.py
+
+# Time for each scene.
+STUDY_TIME ?= 10min
+STUDY = '$(TERRARIUM)' study --time $(STUDY_TIME)
+
+## study: accuracy against time for three scenes, to study/, and their plots to docs/images/; takes half an hour
+study: build
+	$(STUDY) scenes/yardstick/caustic-sphere.ron -o study/caustic-sphere --set image.width=128 --set image.height=128
+	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=240 --set image.height=135
+	$(STUDY) scenes/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
+	    --knobs antialiasing,threshold,depth
+	@mkdir -p docs/images
+	@for name in caustic-sphere terrarium antialiasing; do \
+	    cp "study/$$name/plot.png" "docs/images/study-$$name.png" || exit 1; done
+	@if command -v python3 >/dev/null; then python3 benches/study_pages.py; fi
 
 ## assets: make the meshes and textures that programs write
 assets: build

@@ -240,7 +240,14 @@ fn every_key_of_the_statistics_is_described_and_there_once() {
 /// Pages that people read; pictures are made by rendering and are not looked for.
 #[test]
 fn links_lead_to_files() {
-    for page_name in ["README.md", "GUIDE.md", "CHANGELOG.md", "docs/the-report.md", "docs/adr/README.md"] {
+    for page_name in [
+        "README.md",
+        "GUIDE.md",
+        "CHANGELOG.md",
+        "docs/the-report.md",
+        "docs/accuracy.md",
+        "docs/adr/README.md",
+    ] {
         let folder = root().join(page_name).parent().expect("a file is in a folder").to_owned();
         let page = page(page_name);
         for (at, _) in page.match_indices("](").filter(|(at, _)| !in_code(&page, *at)) {

@@ -38,7 +38,7 @@ const TABLE: [(&str, &[&str]); 15] = [
             "forecast",
         ],
     ),
-    ("measure", &["math", "description", "plan", "film", "output", "render"]),
+    ("measure", &["math", "description", "plan", "film", "output", "forecast", "render"]),
     // part of the program, not of the library: it sees the library from outside
     ("cli", &[]),
 ];

@@ -25,4 +25,6 @@ mod render;
 #[path = "scene_files/main.rs"]
 mod scene_files;
 mod shapes;
+#[path = "study/main.rs"]
+mod study;
 mod textures;

@@ -1,6 +1,7 @@
 //! The arguments, as typed.
 
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
+use super::study_args::{STUDY_EXAMPLES, StudyArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use terrarium::plan::{Effect, Overrides, Until};
@@ -11,6 +12,7 @@ Examples:
   terrarium render scene.ron -o image.exr -o image.png
   terrarium render scene.toml -o - --set materials.glass.ior=1.33 | viewer -
   terrarium plan scene.ron
+  terrarium study scene.ron -o study
   terrarium check scenes/*.ron
   terrarium convert scene.ron scene.toml
   terrarium diff image.exr reference.exr --max-e 1%
@@ -65,6 +67,9 @@ pub enum Command {
     /// Tell what a render would do, why, and what time and memory it would take
     #[command(after_help = PLAN_EXAMPLES)]
     Plan(Box<PlanArgs>),
+    /// Find out what accuracy costs in time: a ladder of renders, plots, and a page to look at
+    #[command(after_help = STUDY_EXAMPLES)]
+    Study(Box<StudyArgs>),
     /// Report every mistake in scene files, without rendering
     Check(CheckArgs),
     /// Compare an image with a reference: metrics, limits, heat maps
@@ -211,7 +216,7 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
 }
 
 /// Seconds from a number with a unit.
-fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
     let found = units.iter().find_map(|(unit, factor)| Some((text.strip_suffix(unit)?, *factor)));

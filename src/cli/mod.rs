@@ -15,6 +15,8 @@ mod plan;
 mod progress;
 mod render;
 mod report;
+mod study;
+mod study_args;
 mod summary;
 mod target;
 
@@ -56,6 +58,7 @@ fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     match &args.command {
         Command::Render(args) => render::run(args, terminal),
         Command::Plan(args) => plan::run(args, terminal),
+        Command::Study(args) => study::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),
         Command::Convert(args) => convert::run(args, terminal),
         Command::Diff(args) => diff::run(args, terminal),

@@ -10,6 +10,7 @@ mod limits;
 pub mod read;
 mod relative;
 mod separable;
+pub mod study;
 mod values;
 
 pub use comparison::{

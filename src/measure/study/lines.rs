@@ -1,0 +1,147 @@
+//! What each knob buys: slopes of its line, and a plain sentence.
+
+use super::record::{Honest, Line, Rung, Study, Summary};
+use super::table::{figures, percent};
+use super::{Change, Knob, reaches, slope};
+use crate::plan::{Antialiasing, Effect, PhotonBudget, PhotonEngine, Plan};
+
+/// Slopes of noise, and of shrinking radii (Knaus & Zwicker 2011), on logarithmic axes of error over passes.
+const OF_NOISE: f64 = -0.5;
+const OF_RADII: f64 = -1.0 / 3.0;
+
+/// Logarithms of factors that are none: of error, and of time, which is noisy.
+const NOTHING: f64 = 0.01;
+const SAME_TIME: f64 = 0.05;
+
+/// Adds lines and honesty, and says whether every rung has all its runs.
+pub fn conclude(study: &mut Study, plan: &Plan) {
+    let mut names: Vec<(Knob, String)> = Vec::new();
+    for rung in &study.rungs {
+        let name = (rung.knob, rung.line.clone());
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    study.lines = names.into_iter().filter_map(|(knob, line)| of(study, plan, knob, line)).collect();
+    let shown = study.rungs.iter().filter(|rung| shows_its_error(rung, plan));
+    let stated = shown.flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
+    study.honest = stated.fold(Honest::default(), |sum, (error, [low, high])| Honest {
+        held: sum.held + u32::from((low..=high).contains(&error)),
+        of: sum.of + 1,
+    });
+    study.complete = study.rungs.iter().all(|rung| rung.runs.len() == study.asked.seeds as usize);
+}
+
+/// Whether passes of this rung show all of its error: not where samples or photons are always the same.
+fn shows_its_error(rung: &Rung, plan: &Plan) -> bool {
+    let antialiasing = match rung.change {
+        Some(Change::Antialiasing(kind)) => kind,
+        _ => plan.antialiasing,
+    };
+    let classic = |photons: &PhotonBudget| matches!(photons.engine, PhotonEngine::Classic { .. });
+    antialiasing == Antialiasing::Progressive && !plan.photons.as_ref().is_some_and(classic)
+}
+
+type Point<'a> = (&'a Rung, &'a Summary);
+
+fn of(study: &Study, plan: &Plan, knob: Knob, line: String) -> Option<Line> {
+    let points: Vec<Point> = study.rendered().filter(|(r, _)| r.knob == knob && r.line == line).collect();
+    let pairs = |of: &dyn Fn(&Point) -> Option<[f64; 2]>| -> Option<f64> {
+        slope(&points.iter().filter_map(of).collect::<Vec<_>>())
+    };
+    let error_by_seconds = pairs(&|(_, s)| Some([s.seconds[0], s.error[0]]));
+    let error_by_number = pairs(&|(rung, s)| Some([rung.x?, s.error[0]]));
+    let seconds_by_number = pairs(&|(rung, s)| Some([rung.x?, s.seconds[0]]));
+    let theory = if knob == Knob::Passes { theory(plan) } else { None };
+    let sentence = sentence(study, knob, &line, &points, error_by_number, seconds_by_number)?;
+    Some(Line { knob, line, error_by_seconds, error_by_number, seconds_by_number, theory, sentence })
+}
+
+/// What theory says of passes: noise alone, or with photons whose radius shrinks. Nothing where samples lie
+/// where they always lie.
+fn theory(plan: &Plan) -> Option<[f64; 2]> {
+    if plan.antialiasing != Antialiasing::Progressive {
+        return None;
+    }
+    let indirect = plan.is_on(Effect::Indirect).then_some(plan.indirect_photons);
+    let photons = plan.photons.or(indirect);
+    match photons.map(|photons| photons.engine) {
+        None => Some([OF_NOISE; 2]),
+        Some(PhotonEngine::Progressive { .. }) => Some([OF_NOISE, OF_RADII]),
+        Some(PhotonEngine::Classic { .. }) => None,
+    }
+}
+
+fn sentence(
+    study: &Study,
+    knob: Knob,
+    line: &str,
+    points: &[Point],
+    error: Option<f64>,
+    seconds: Option<f64>,
+) -> Option<String> {
+    let ((first, from), (last, to)) = (points.first()?, points.last()?);
+    let mut text = match (error, seconds) {
+        (Some(error), Some(seconds)) => {
+            let (step, factor) = knob.step();
+            let step = if line == "progressive" { "four times the passes" } else { step };
+            let [error, seconds] = [error, seconds].map(|slope| libm::pow(factor, slope));
+            let error = match libm::log(error).abs() < NOTHING {
+                true => "as before".to_owned(),
+                false => format!("×{}", figures(error)),
+            };
+            let seconds = match libm::log(seconds).abs() < SAME_TIME {
+                true => "in the same time".to_owned(),
+                false => format!("for ×{} time", figures(seconds)),
+            };
+            format!("{}: error {error} {seconds}", capital(step))
+        }
+        _ => format!(
+            "{}: error {} in {} s",
+            capital(&first.value),
+            percent(from.error[0]),
+            figures(from.seconds[0])
+        ),
+    };
+    if points.len() > 1 {
+        let at = |rung: &Rung, s: &Summary| {
+            format!("{} in {} s ({})", percent(s.error[0]), figures(s.seconds[0]), rung.value)
+        };
+        text += &format!("; from {} to {}", at(first, from), at(last, to));
+        let (best, least) = points.iter().min_by(|a, b| a.1.error[0].total_cmp(&b.1.error[0]))?;
+        if best.name != last.name {
+            text += &format!("; the least error is at {}: {}", best.value, percent(least.error[0]));
+        }
+    }
+    if line == "adaptive" {
+        text += &beside_grid(study, from);
+    }
+    text.push('.');
+    Some(text)
+}
+
+/// How adaptive antialiasing compares with the grid of its error: in time, and in camera rays, which do not
+/// depend on what else the machine does.
+fn beside_grid(study: &Study, adaptive: &Summary) -> String {
+    let grid = |of: fn(&Summary) -> f64| -> Vec<[f64; 2]> {
+        let grid = study.rendered().filter(|(rung, _)| rung.line == "grid");
+        grid.map(|(_, s)| [of(s), s.error[0]]).collect()
+    };
+    let (by_time, by_rays) = (grid(|s| s.seconds[0]), grid(|s| s.camera_rays as f64));
+    let error = adaptive.error[0];
+    match (reaches(&by_time, error), reaches(&by_rays, error)) {
+        (Some(seconds), Some(rays)) => format!(
+            "; a grid of that error takes {} s, ×{}, and ×{} as many camera rays",
+            figures(seconds),
+            figures(seconds / adaptive.seconds[0]),
+            figures(rays / adaptive.camera_rays as f64)
+        ),
+        _ if by_time.iter().all(|point| point[1] > error) => "; no grid that was tried is as good".to_owned(),
+        _ => "; every grid that was tried is better".to_owned(),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
+}
