@@ -175,7 +175,7 @@ fn depth(scene: &Scene, reach: Reach) -> Result<Vec<Rung>, String> {
         let change = Change::Antialiasing(Antialiasing::Adaptive { threshold, depth });
         rung(scene, Knob::Depth, depth.to_string(), f64::from(1u32 << depth), reach.base, Some(change))
     };
-    Ok((1..=own.max(4).min(8)).map(of).collect())
+    Ok((1..=own.clamp(4, 8)).map(of).collect())
 }
 
 fn shadow_rays(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String> {

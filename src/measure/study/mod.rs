@@ -30,7 +30,7 @@ use crate::plan::Plan;
 use crate::render::{Options, Progress, RenderError};
 use reference::Truth;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 /// Why a study could not be made.
@@ -204,7 +204,7 @@ fn place(folder: &Path, name: &str) -> String {
     folder.join(name).display().to_string()
 }
 
-fn put(path: &PathBuf, bytes: &[u8]) -> Result<(), StudyError> {
+fn put(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     crate::output::atomic::write(path, bytes)
         .map_err(|error| StudyError::Output(path.display().to_string(), error))
 }
