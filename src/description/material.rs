@@ -40,10 +40,10 @@ pub struct Material {
     /// Index of refraction, 0.05 to 10, or a name. Without it: 1.5.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ior: Option<Ior>,
-    /// How `ior` depends on the wavelength; needs `transmission`. Without it: not at all.
+    /// How `ior` depends on the wavelength; it does nothing without `transmission`. Without it: not at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dispersion: Option<Dispersion>,
-    /// Beer–Lambert absorption inside, per metre; needs `transmission`.
+    /// Beer–Lambert absorption inside, per metre; it does nothing without `transmission`.
     #[serde(skip_serializing_if = "Rgb::is_zero")]
     pub absorption: Rgb,
     /// Of overlapping transmissive objects the one of higher priority counts (Schmidt & Budge 2002).

@@ -82,7 +82,11 @@ pub const CASES: &[super::Case] = &[
     ),
     (
         r#"materials: { "m": (absorption: 1) }"#,
-        &["2:32: error: materials.m.absorption: `absorption` needs `transmission` above 0"],
+        &["2:32: warning: materials.m.absorption: `absorption` does nothing where `transmission` is 0"],
+    ),
+    (
+        r#"materials: { "m": (diffuse: 1, dispersion: abbe(30)) }"#,
+        &["2:44: warning: materials.m.dispersion: `dispersion` does nothing where `transmission` is 0"],
     ),
     (
         r#"materials: { "m": (diffuse: texture("wood")) }"#,

@@ -331,10 +331,6 @@ fn impossible_dispersion_is_refused_with_its_place() {
             "(transmission: 1, dispersion: abe(30))",
             "2:49: error: materials.m.dispersion: there is no `abe` here; did you mean `abbe`?",
         ),
-        (
-            "(diffuse: 1, dispersion: abbe(30))",
-            "2:44: error: materials.m.dispersion: `dispersion` needs `transmission` above 0",
-        ),
     ] {
         let text =
             format!("(camera: (eye: (0, 0, 1), target: (0, 0, 0)),\nmaterials: {{ \"m\": {material} }})");

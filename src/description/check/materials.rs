@@ -48,13 +48,13 @@ fn check_material(c: &mut Checker, path: &Path, material: &Material) {
         None => {}
     }
     if material.dispersion.is_some() && material.transmission.is_zero() {
-        let message = "`dispersion` needs `transmission` above 0";
-        c.error_about(&[&path.key("dispersion"), &path.key("transmission")], message);
+        let message = "`dispersion` does nothing where `transmission` is 0";
+        c.warn_about(&[&path.key("dispersion"), &path.key("transmission")], message);
     }
     c.colour(&path.key("absorption"), &material.absorption);
     if !material.absorption.is_zero() && material.transmission.is_zero() {
-        let message = "`absorption` needs `transmission` above 0";
-        c.error_about(&[&path.key("absorption"), &path.key("transmission")], message);
+        let message = "`absorption` does nothing where `transmission` is 0";
+        c.warn_about(&[&path.key("absorption"), &path.key("transmission")], message);
     }
     if let Some(map) = &material.normal_map {
         c.within(&path.key("normal_map").key("strength"), map.strength, 0.0, 10.0);

@@ -118,6 +118,11 @@ impl Checker<'_> {
         self.report(Severity::Error, Kind::Invalid, paths, message.into(), None);
     }
 
+    /// A doubt about several values together.
+    fn warn_about(&mut self, paths: &[&Path], message: impl Into<String>) {
+        self.report(Severity::Warning, Kind::Invalid, paths, message.into(), None);
+    }
+
     fn warn(&mut self, path: &Path, message: impl Into<String>) {
         self.report(Severity::Warning, Kind::Invalid, &[path], message.into(), None);
     }
