@@ -1,4 +1,4 @@
-"""Writes what the studies of `make study` found into docs/accuracy.md, between the marks that are there.
+"""Puts the plots and sentences of `make study` into docs/accuracy.md, between the marks that are there.
 
 Nothing of it is typed by hand: sentences are the program's own, from study/NAME/study.json.
 """
@@ -15,7 +15,7 @@ def found(name):
     """The lines that belong between the marks of a study."""
     with open(os.path.join(ROOT, "study", name, "study.json"), encoding="utf-8") as file:
         study = json.load(file)
-    lines = []
+    lines = ["![Error against time](images/study-%s.png)" % name, ""]
     for line in study["lines"]:
         label = line["line"] if line["line"] == line["knob"] else line["knob"] + ", " + line["line"]
         text = "- **%s**: %s" % (label.replace("_", " "), line["sentence"])
