@@ -56,23 +56,12 @@ pub(super) fn translate(
                 luminous_shape(name, light, &at, surfaces, placed)?
             }
         };
-        if let Some(kind) = kind.filter(|_| !is_black(light)) {
+        // The shape of a black light still stands in the scene.
+        if let Some(kind) = kind.filter(|_| !light.is_black()) {
             lights.emitters.push(Emitter { kind, samples, name: name.to_owned() });
         }
     }
     Ok(lights)
-}
-
-/// A black light sends nothing; its shape still stands in the scene.
-fn is_black(light: &Light) -> bool {
-    match light {
-        Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.is_zero(),
-        Light::Directional { irradiance, .. } => irradiance.is_zero(),
-        Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } | Light::Disk { radiance, .. } => {
-            radiance.is_zero()
-        }
-        Light::Environment { .. } => false,
-    }
 }
 
 fn luminous_shape(

@@ -112,6 +112,32 @@ pub enum Light {
     },
 }
 
+impl Light {
+    /// Whether it sends nothing, as far as the scene says: an image may be black as well.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.is_zero(),
+            Light::Directional { irradiance, .. } => irradiance.is_zero(),
+            Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } | Light::Disk { radiance, .. } => {
+                radiance.is_zero()
+            }
+            Light::Environment { scale, map, .. } => *scale == 0.0 || map.is_black(),
+        }
+    }
+}
+
+impl EnvironmentMap {
+    fn is_black(&self) -> bool {
+        match self {
+            EnvironmentMap::Constant(colour) => colour.is_zero(),
+            EnvironmentMap::Gradient { zenith, horizon, nadir } => {
+                zenith.is_zero() && horizon.is_zero() && nadir.is_zero()
+            }
+            EnvironmentMap::Image { .. } => false,
+        }
+    }
+}
+
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

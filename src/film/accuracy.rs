@@ -17,11 +17,17 @@
 //! What no pass can tell is not in it: the depth limit, three colours, facets of meshes, and paths so rare
 //! that none was found.
 
+mod independent;
+mod law;
+mod sums;
+
 use super::brightness::Brightness;
 use crate::math::DVec3;
 use crate::math::random::{combine, mix};
-use crate::trace::{Kind, Measured, Probe};
+use crate::trace::{Measured, Probe};
+use independent::Independent;
 use serde::Serialize;
+use sums::Sums;
 
 /// The relative RMS error of a picture, 1 for 100 %.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,17 +62,6 @@ const FLOOR: f64 = 0.31;
 /// Groups of probes, to see how much the estimate hangs on some of them; Student's t for 95 % and one less.
 const GROUPS: u64 = 16;
 const STUDENT: f64 = 2.131;
-
-/// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
-/// those of smooth things in one dimension.
-const RATES: [f64; 2] = [0.8, 3.0];
-
-/// What is assumed while there are too few passes to tell: between independent samples and the 1.3 to 1.5 that are
-/// usual for edges and soft shadows.
-const EARLY_RATE: f64 = 1.2;
-
-/// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
-const PHOTON_RATE: f64 = 2.0 / 3.0;
 
 /// The squared bias of progressive passes falls as n^−2(1−α), α = 2/3 (Knaus & Zwicker 2011).
 pub const BIAS_RATE: f64 = 2.0 / 3.0;
@@ -128,34 +123,6 @@ impl Accuracy {
     }
 }
 
-/// The squared error of all pixels, were their passes independent.
-struct Independent {
-    mean: f64,
-    /// √Σt²/Σt of the pixels' parts t: how much it hangs on few of them.
-    scatter: f64,
-}
-
-impl Independent {
-    fn of(pixels: impl Iterator<Item = Measured>, picture: &Brightness, floor: f64) -> Independent {
-        // Whole numbers: their sum is the same in any order.
-        let (mut count, mut sum, mut squares) = (0u64, 0u128, 0u128);
-        for pixel in pixels {
-            let weight = weight(pixel.mean * picture.trusted(pixel.x, pixel.y, pixel.halves), floor);
-            let t = (pixel.variance * weight).element_sum() / (3.0 * f64::from(pixel.passes));
-            count += 1;
-            sum += (t.min(MOST) * UNIT) as u128;
-            squares += (t.min(MOST) * t.min(MOST) * UNIT) as u128;
-        }
-        let [sum, squares] = [sum, squares].map(|whole| whole as f64 / UNIT);
-        let scatter = if sum > 0.0 { squares.sqrt() / sum } else { 0.0 };
-        Independent { mean: sum / (count as f64).max(1.0), scatter }
-    }
-}
-
-/// Steps of the sums in a squared error of 1, and the most that one pixel can have.
-const UNIT: f64 = (1u64 << 62) as f64;
-const MOST: f64 = 1e6;
-
 /// 1/(R² + floor) by channel.
 fn weight(r: DVec3, floor: f64) -> DVec3 {
     1.0 / (r * r + floor)
@@ -163,173 +130,6 @@ fn weight(r: DVec3, floor: f64) -> DVec3 {
 
 /// Of a normal distribution, for 95 %.
 const TWO_SIGMA: f64 = 1.96;
-
-/// Sums over probes of squares, relative and averaged over channels.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sums {
-    count: f64,
-    /// Variances from pass to pass, by kind.
-    variance: [f64; 3],
-    /// Of the rest: the last change of the mean, and the one before.
-    changes: [f64; 2],
-    /// Products of two halves' biases, of caustic, indirect and both; and how many.
-    bias: [f64; 3],
-    biased: f64,
-    /// Of probes that know what is left at one place: that, and all of the variance of the rest.
-    place: [f64; 2],
-}
-
-impl Sums {
-    fn add(&mut self, probe: &Probe, picture: &Brightness, floor: f64) {
-        let trusted = picture.trusted(probe.x, probe.y, probe.halves());
-        let weight = weight(probe.mean_of_all() * trusted, floor);
-        let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
-        self.count += 1.0;
-        for kind in Kind::ALL {
-            self.variance[kind as usize] += relative(probe.variance(kind));
-        }
-        self.changes[0] += relative(probe.change());
-        self.changes[1] += relative(probe.change_before());
-        if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases() {
-            self.biased += 1.0;
-            self.bias[0] += relative(caustic * caustic_later);
-            self.bias[1] += relative(indirect * indirect_later);
-            self.bias[2] += relative((caustic + indirect) * (caustic_later + indirect_later));
-        }
-        if let Some(at_one_place) = probe.variance_at_one_place() {
-            self.place[0] += relative(at_one_place);
-            self.place[1] += relative(probe.variance(Kind::Rest));
-        }
-    }
-
-    /// Together with `times` another.
-    fn with(&self, other: &Sums, times: f64) -> Sums {
-        let mut sum = *self;
-        let add =
-            |mine: &mut [f64], theirs: &[f64]| mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += times * b);
-        add(&mut sum.variance, &other.variance);
-        add(&mut sum.changes, &other.changes);
-        add(&mut sum.bias, &other.bias);
-        add(&mut sum.place, &other.place);
-        sum.count += times * other.count;
-        sum.biased += times * other.biased;
-        sum
-    }
-
-    /// The squared noise of the mean of all passes, and the rate at which it will fall.
-    fn noise(&self, kind: Kind, part: u32, passes: u32) -> [f64; 2] {
-        let s2 = self.variance[kind as usize] / self.count.max(1.0);
-        if kind != Kind::Rest {
-            return [s2 / f64::from(passes), PHOTON_RATE];
-        }
-        let change = (self.changes[0] + self.changes[1]) / self.count.max(1.0);
-        if s2 <= 0.0 {
-            return [0.0, EARLY_RATE];
-        }
-        // Before that two rates could make the same change.
-        if part < 4 {
-            return [s2 * Law(EARLY_RATE).of(part.max(1), passes), EARLY_RATE];
-        }
-        // The change falls as the rate rises.
-        let [mut low, mut high] = RATES;
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if s2 * Law(middle).change(part, passes) > change { low = middle } else { high = middle }
-        }
-        let law = Law(0.5 * (low + high));
-        [s2 * law.of(part, passes), law.0]
-    }
-
-    /// The squared bias: 0 caustic, 1 indirect, 2 both.
-    fn bias(&self, which: usize) -> f64 {
-        (self.bias[which] / self.biased.max(1.0)).max(0.0)
-    }
-
-    /// The squared noise over what it would be of independent passes.
-    fn gain(&self, part: u32, passes: u32) -> f64 {
-        let independent = self.variance.iter().sum::<f64>() / (self.count.max(1.0) * f64::from(passes));
-        let noise: f64 = Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum();
-        if independent > 0.0 { noise / independent } else { 1.0 }
-    }
-
-    /// `independent`: the squared error of all pixels, were their passes independent.
-    fn accuracy(&self, part: u32, passes: u32, independent: f64) -> Accuracy {
-        // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
-        let [place, all] = self.place;
-        let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
-        let [rest, rate] = self.noise(Kind::Rest, part, passes);
-        let [caustic, caustic_rate] = self.noise(Kind::Caustic, part, passes);
-        let [indirect, indirect_rate] = self.noise(Kind::Indirect, part, passes);
-        let rows = [
-            ("edges", rest * edges, 0.0, rate),
-            ("direct", rest * (1.0 - edges), 0.0, rate),
-            ("caustics", caustic, self.bias(0), caustic_rate),
-            ("indirect", indirect, self.bias(1), indirect_rate),
-        ];
-        // Probes tell how it is shared, all pixels how much it is.
-        let noise = independent * self.gain(part, passes);
-        let probed = rest + caustic + indirect;
-        let scale = if probed > 0.0 { noise / probed } else { 0.0 };
-        let rows = rows.map(|(effect, noise, bias, rate)| (effect, noise * scale, bias, rate));
-        let error = (noise + self.bias(2)).sqrt();
-        let sum: f64 = rows.iter().map(|(_, noise, bias, _)| noise + bias).sum();
-        let rows = rows.into_iter().filter(|(_, noise, bias, _)| noise + bias > 0.0);
-        let part = |(effect, noise, bias, rate): (&'static str, f64, f64, f64)| Part {
-            effect,
-            share: (noise + bias) / sum,
-            rate,
-            noise: noise.sqrt(),
-            bias: bias.sqrt(),
-        };
-        Accuracy {
-            passes,
-            error,
-            interval: [error; 2],
-            noise: noise.sqrt(),
-            bias: self.bias(2).sqrt(),
-            by_effect: rows.map(part).collect(),
-        }
-    }
-}
-
-/// V(n)/V(1) of samples that are well distributed over parts of a power of two, at a rate.
-#[derive(Clone, Copy, Debug)]
-struct Law(f64);
-
-impl Law {
-    /// Of a full part.
-    fn full(self, n: u32) -> f64 {
-        libm::pow(f64::from(n), -self.0)
-    }
-
-    /// Of any number of passes: full parts, the largest first, each independent of the others.
-    fn any(self, mut n: u32) -> f64 {
-        let all = f64::from(n);
-        let mut sum = 0.0;
-        while n > 0 {
-            let part = 1 << n.ilog2();
-            sum += f64::from(part) * f64::from(part) * self.full(part);
-            n -= part;
-        }
-        sum / (all * all)
-    }
-
-    /// Of `passes` passes, the first `part` of which are full.
-    fn of(self, part: u32, passes: u32) -> f64 {
-        if passes == 2 * part { self.full(passes) } else { self.any(passes) }
-    }
-
-    /// The squared change of the mean since half of the first part, in its two steps together.
-    fn change(self, part: u32, passes: u32) -> f64 {
-        let before = self.full(part / 2) - self.full(part);
-        let late = passes - part;
-        if late == part {
-            return before + self.full(part) - self.full(passes);
-        }
-        let share = f64::from(late) / f64::from(passes);
-        before + share * share * (self.full(part) + if late > 0 { self.any(late) } else { 0.0 })
-    }
-}
 
 impl Accuracy {
     /// The passes in all after which the error will be `target`, at the rates found so far.

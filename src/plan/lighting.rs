@@ -3,7 +3,7 @@
 use super::Effect;
 use super::decide::{is_specular, who};
 use super::decision::{Cause, Decision, few};
-use crate::description::{EnvironmentMap, Light, Material, Photons, Rgb, Scene, Source, Use};
+use crate::description::{Light, Material, Photons, Rgb, Scene, Source, Use};
 
 /// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
 pub(super) struct Lights<'a> {
@@ -18,7 +18,7 @@ pub(super) struct Lights<'a> {
 impl<'a> Lights<'a> {
     pub fn of(scene: &'a Scene, uses: &'a [Use]) -> Lights<'a> {
         let mut lights = Lights { small: Vec::new(), large: Vec::new(), sky: None, objects: Vec::new() };
-        for (name, light) in scene.lights.iter().filter(|(_, light)| !is_black(light)) {
+        for (name, light) in scene.lights.iter().filter(|(_, light)| !light.is_black()) {
             match light {
                 Light::Point { .. } | Light::Spot { .. } | Light::Directional { .. } => {
                     lights.small.push(name)
@@ -132,19 +132,6 @@ fn comma(names: &[&str]) -> String {
     let told: Vec<String> = names.iter().take(4).map(|name| format!("`{name}`")).collect();
     let more = if names.len() > 4 { format!(" and {} more", names.len() - 4) } else { String::new() };
     told.join(", ") + &more
-}
-
-fn is_black(light: &Light) -> bool {
-    match light {
-        Light::Point { intensity, .. } | Light::Spot { intensity, .. } => intensity.is_zero(),
-        Light::Directional { irradiance, .. } => irradiance.is_zero(),
-        Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } | Light::Disk { radiance, .. } => {
-            radiance.is_zero()
-        }
-        Light::Environment { map, scale, .. } => {
-            *scale == 0.0 || matches!(map, EnvironmentMap::Constant(colour) if colour.is_zero())
-        }
-    }
 }
 
 fn emits(m: &Material) -> bool {

@@ -1,0 +1,146 @@
+//! What probes tell of the noise and the bias, and of which effects bring them.
+
+use super::law::Law;
+use super::{Accuracy, Part, weight};
+use crate::film::brightness::Brightness;
+use crate::math::DVec3;
+use crate::trace::{Kind, Probe};
+
+/// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
+/// those of smooth things in one dimension.
+const RATES: [f64; 2] = [0.8, 3.0];
+
+/// What is assumed while there are too few passes to tell: between independent samples and the 1.3 to 1.5 that are
+/// usual for edges and soft shadows.
+const EARLY_RATE: f64 = 1.2;
+
+/// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
+const PHOTON_RATE: f64 = 2.0 / 3.0;
+
+/// Sums over probes of squares, relative and averaged over channels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    pub count: f64,
+    /// Variances from pass to pass, by kind.
+    variance: [f64; 3],
+    /// Of the rest: the last change of the mean, and the one before.
+    changes: [f64; 2],
+    /// Products of two halves' biases, of caustic, indirect and both; and how many.
+    bias: [f64; 3],
+    biased: f64,
+    /// Of probes that know what is left at one place: that, and all of the variance of the rest.
+    place: [f64; 2],
+}
+
+impl Sums {
+    pub fn add(&mut self, probe: &Probe, picture: &Brightness, floor: f64) {
+        let trusted = picture.trusted(probe.x, probe.y, probe.halves());
+        let weight = weight(probe.mean_of_all() * trusted, floor);
+        let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
+        self.count += 1.0;
+        for kind in Kind::ALL {
+            self.variance[kind as usize] += relative(probe.variance(kind));
+        }
+        self.changes[0] += relative(probe.change());
+        self.changes[1] += relative(probe.change_before());
+        if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases() {
+            self.biased += 1.0;
+            self.bias[0] += relative(caustic * caustic_later);
+            self.bias[1] += relative(indirect * indirect_later);
+            self.bias[2] += relative((caustic + indirect) * (caustic_later + indirect_later));
+        }
+        if let Some(at_one_place) = probe.variance_at_one_place() {
+            self.place[0] += relative(at_one_place);
+            self.place[1] += relative(probe.variance(Kind::Rest));
+        }
+    }
+
+    /// Together with `times` another.
+    pub fn with(&self, other: &Sums, times: f64) -> Sums {
+        let mut sum = *self;
+        let add =
+            |mine: &mut [f64], theirs: &[f64]| mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += times * b);
+        add(&mut sum.variance, &other.variance);
+        add(&mut sum.changes, &other.changes);
+        add(&mut sum.bias, &other.bias);
+        add(&mut sum.place, &other.place);
+        sum.count += times * other.count;
+        sum.biased += times * other.biased;
+        sum
+    }
+
+    /// The squared noise of the mean of all passes, and the rate at which it will fall.
+    fn noise(&self, kind: Kind, part: u32, passes: u32) -> [f64; 2] {
+        let s2 = self.variance[kind as usize] / self.count.max(1.0);
+        if kind != Kind::Rest {
+            return [s2 / f64::from(passes), PHOTON_RATE];
+        }
+        let change = (self.changes[0] + self.changes[1]) / self.count.max(1.0);
+        if s2 <= 0.0 {
+            return [0.0, EARLY_RATE];
+        }
+        // Before that two rates could make the same change.
+        if part < 4 {
+            return [s2 * Law(EARLY_RATE).of(part.max(1), passes), EARLY_RATE];
+        }
+        // The change falls as the rate rises.
+        let [mut low, mut high] = RATES;
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if s2 * Law(middle).change(part, passes) > change { low = middle } else { high = middle }
+        }
+        let law = Law(0.5 * (low + high));
+        [s2 * law.of(part, passes), law.0]
+    }
+
+    /// The squared bias: 0 caustic, 1 indirect, 2 both.
+    pub fn bias(&self, which: usize) -> f64 {
+        (self.bias[which] / self.biased.max(1.0)).max(0.0)
+    }
+
+    /// The squared noise over what it would be of independent passes.
+    pub fn gain(&self, part: u32, passes: u32) -> f64 {
+        let independent = self.variance.iter().sum::<f64>() / (self.count.max(1.0) * f64::from(passes));
+        let noise: f64 = Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum();
+        if independent > 0.0 { noise / independent } else { 1.0 }
+    }
+
+    /// `independent`: the squared error of all pixels, were their passes independent.
+    pub fn accuracy(&self, part: u32, passes: u32, independent: f64) -> Accuracy {
+        // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
+        let [place, all] = self.place;
+        let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
+        let [rest, rate] = self.noise(Kind::Rest, part, passes);
+        let [caustic, caustic_rate] = self.noise(Kind::Caustic, part, passes);
+        let [indirect, indirect_rate] = self.noise(Kind::Indirect, part, passes);
+        let rows = [
+            ("edges", rest * edges, 0.0, rate),
+            ("direct", rest * (1.0 - edges), 0.0, rate),
+            ("caustics", caustic, self.bias(0), caustic_rate),
+            ("indirect", indirect, self.bias(1), indirect_rate),
+        ];
+        // Probes tell how it is shared, all pixels how much it is.
+        let noise = independent * self.gain(part, passes);
+        let probed = rest + caustic + indirect;
+        let scale = if probed > 0.0 { noise / probed } else { 0.0 };
+        let rows = rows.map(|(effect, noise, bias, rate)| (effect, noise * scale, bias, rate));
+        let error = (noise + self.bias(2)).sqrt();
+        let sum: f64 = rows.iter().map(|(_, noise, bias, _)| noise + bias).sum();
+        let rows = rows.into_iter().filter(|(_, noise, bias, _)| noise + bias > 0.0);
+        let part = |(effect, noise, bias, rate): (&'static str, f64, f64, f64)| Part {
+            effect,
+            share: (noise + bias) / sum,
+            rate,
+            noise: noise.sqrt(),
+            bias: bias.sqrt(),
+        };
+        Accuracy {
+            passes,
+            error,
+            interval: [error; 2],
+            noise: noise.sqrt(),
+            bias: self.bias(2).sqrt(),
+            by_effect: rows.map(part).collect(),
+        }
+    }
+}
