@@ -6,7 +6,7 @@ use super::report::{self, Terminal};
 use std::io::Read;
 use std::path::Path;
 use terrarium::build;
-use terrarium::description::{self, Loaded, Report};
+use terrarium::description::{self, Loaded, Report, Unread};
 
 /// A scene on standard input ends here; larger ones are mistakes.
 const LONGEST_INPUT: u64 = 256 << 20;
@@ -16,7 +16,7 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
     let mut results = Vec::new();
     let mut worst = 0;
     for scene in &args.scenes {
-        let (diagnostics, code) = match load(scene, &args.reading)? {
+        let (diagnostics, code) = match load(scene, &args.reading, Unread::default())? {
             Ok(loaded) => {
                 let report = files(&loaded);
                 let code = if report.errors().next().is_none() { 0 } else { report.exit_code() };
@@ -54,13 +54,14 @@ pub fn files(loaded: &Loaded) -> Report {
     loaded.report(build::examine(&loaded.scene))
 }
 
-/// Reads and checks a scene; `-` is standard input. The outer error is a wrong call.
-pub fn load(scene: &Path, reading: &Reading) -> Result<Result<Loaded, Report>, Failure> {
+/// Reads and checks a scene; `-` is standard input. Missing files of what is left `unread` are
+/// warnings. The outer error is a wrong call.
+pub fn load(scene: &Path, reading: &Reading, unread: Unread) -> Result<Result<Loaded, Report>, Failure> {
     if scene != Path::new("-") {
-        return Ok(description::load(scene, &reading.set));
+        return Ok(description::load_but(scene, &reading.set, unread));
     }
     let (text, format) = standard_input(reading)?;
-    Ok(description::load_str(&text, format, Path::new("."), &reading.set))
+    Ok(description::load_str_but(&text, format, Path::new("."), &reading.set, unread))
 }
 
 /// The scene on standard input, and its language.
@@ -84,8 +85,13 @@ pub fn standard_input(reading: &Reading) -> Result<(String, description::Format)
 }
 
 /// Reads a scene and prints its mistakes and warnings.
-pub fn load_and_report(scene: &Path, reading: &Reading, terminal: &Terminal) -> Result<Loaded, Failure> {
-    match load(scene, reading)? {
+pub fn load_and_report(
+    scene: &Path,
+    reading: &Reading,
+    unread: Unread,
+    terminal: &Terminal,
+) -> Result<Loaded, Failure> {
+    match load(scene, reading, unread)? {
         Ok(loaded) => {
             loaded.warnings.iter().for_each(|warning| terminal.diagnostic(warning));
             Ok(loaded)

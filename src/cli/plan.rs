@@ -2,7 +2,7 @@
 
 use super::args::PlanArgs;
 use super::check::{load_and_report, set_threads};
-use super::exit::Failure;
+use super::exit::{Failure, USAGE};
 use super::measure;
 use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
@@ -32,40 +32,27 @@ struct Document<'a> {
     measured: Option<&'a measure::Table>,
 }
 
+/// Plans every scene, whatever is wrong with others; the worst exit code counts.
 pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
+    if args.scenes.iter().filter(|scene| scene.as_path() == Path::new("-")).count() > 1 {
+        return Err(Failure::new(USAGE, "standard input can be read once only: name `-` once"));
+    }
     set_threads(args.work.threads)?;
-    let mut documents = Vec::new();
+    let (mut documents, mut worst) = (Vec::new(), 0);
     for scene in &args.scenes {
-        let began = Instant::now();
-        let loaded = load_and_report(scene, &args.reading, terminal)?;
-        let load_seconds = began.elapsed().as_secs_f64();
-        let options = args.work.options();
-        let reporter = Reporter::new(args.progress, args.quiet, terminal);
-        let planned = render::plan(&loaded, &options, &reporter);
-        let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
-        let measured =
-            if args.measure { Some(measure::table(&loaded, &options, &planned, &reporter)?) } else { None };
-        if args.json {
-            let image = &loaded.scene.image;
-            let document = Document {
-                version: env!("CARGO_PKG_VERSION"),
-                scene: scene.display().to_string(),
-                scene_hash: hex(&loaded.hash),
-                width: image.width,
-                height: image.height,
-                threads: rayon::current_num_threads(),
-                load_seconds,
-                planned: &planned,
-                measured: measured.as_ref(),
-            };
-            documents.push(serde_json::to_value(&document).expect("numbers, strings and maps of strings"));
-        } else {
-            let mut text = format!("{}\n", heading(scene, &loaded, &planned));
-            text += &lines(&planned);
-            if let Some(table) = &measured {
-                text += &table.text();
+        match plan(scene, args, terminal) {
+            Ok(found) => documents.push(found),
+            Err(failure) => {
+                if !failure.message.is_empty() {
+                    terminal.error(&format!("{}: {}", scene.display(), failure.message));
+                }
+                worst = worst.max(failure.code);
+                documents.push(serde_json::json!({
+                    "version": env!("CARGO_PKG_VERSION"),
+                    "scene": scene.display().to_string(),
+                    "exit_code": failure.code,
+                }));
             }
-            report::print(&text)?;
         }
     }
     if args.json {
@@ -73,7 +60,42 @@ pub fn run(args: &PlanArgs, terminal: &Terminal) -> Result<(), Failure> {
         let all = serde_json::Value::Array(documents);
         report::print(&format!("{:#}\n", if one { &all[0] } else { &all }))?;
     }
-    Ok(())
+    if worst == 0 { Ok(()) } else { Err(Failure::new(worst, "")) }
+}
+
+/// Plans one scene and prints that, or gives back its document.
+fn plan(scene: &Path, args: &PlanArgs, terminal: &Terminal) -> Result<serde_json::Value, Failure> {
+    let began = Instant::now();
+    let options = args.work.options();
+    let loaded = load_and_report(scene, &args.reading, options.overrides.unread(), terminal)?;
+    let load_seconds = began.elapsed().as_secs_f64();
+    let reporter = Reporter::new(args.progress, args.quiet, terminal);
+    let planned = render::plan(&loaded, &options, &reporter);
+    let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
+    let measured =
+        if args.measure { Some(measure::table(&loaded, &options, &planned, &reporter)?) } else { None };
+    if !args.json {
+        let mut text = format!("{}\n", heading(scene, &loaded, &planned));
+        text += &lines(&planned);
+        if let Some(table) = &measured {
+            text += &table.text();
+        }
+        report::print(&report::printable(&text))?;
+        return Ok(serde_json::Value::Null);
+    }
+    let image = &loaded.scene.image;
+    let document = Document {
+        version: env!("CARGO_PKG_VERSION"),
+        scene: scene.display().to_string(),
+        scene_hash: hex(&loaded.hash),
+        width: image.width,
+        height: image.height,
+        threads: rayon::current_num_threads(),
+        load_seconds,
+        planned: &planned,
+        measured: measured.as_ref(),
+    };
+    Ok(serde_json::to_value(&document).expect("numbers, strings and maps of strings"))
 }
 
 fn heading(scene: &Path, loaded: &Loaded, planned: &Planned) -> String {
@@ -100,6 +122,7 @@ fn lines(planned: &Planned) -> String {
             text.extend(dark.map(|light| format!("  {light}\n")));
         }
     }
+    text.extend(planned.survey.notes.iter().map(|note| format!("note: {note}\n")));
     text += &format!("rays: {}\n", rays(&planned.rays));
     for (what, photons) in
         [("photons", &planned.photons.photons), ("indirect photons", &planned.photons.indirect_photons)]

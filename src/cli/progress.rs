@@ -167,8 +167,10 @@ impl Progress for Reporter {
             let (seconds, bytes) = (planned.seconds, planned.peak_bytes);
             let line = serde_json::json!({ "v": 1, "note": "planned", "predicted_s": seconds, "predicted_bytes": bytes });
             self.terminal.say(&line.to_string());
+            planned.survey.notes.iter().for_each(|note| self.note(note));
         } else if self.tells_plan {
             self.terminal.say(&plan::summary(planned));
+            planned.survey.notes.iter().for_each(|note| self.terminal.say(note));
         }
     }
 

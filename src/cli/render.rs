@@ -25,7 +25,8 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     refuse_mixed_up_files(args, &targets)?;
     let stamp = args.stamp.then(stamp).transpose()?;
     set_threads(args.work.threads)?;
-    let loaded = load_and_report(&args.scene, &args.reading, terminal)?;
+    let loaded =
+        load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
     refuse_overwriting(&targets, &loaded.files)?;
     probe(args, &targets)?;
     let reporter = Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet);
@@ -113,9 +114,6 @@ fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<Stri
     );
     if !plan.overrides.is_empty() {
         line += &format!(", {}", plan.overrides);
-    }
-    for note in &plan.notes {
-        line += &format!("\n{note}");
     }
     Ok(line)
 }

@@ -5,6 +5,7 @@
 
 use super::args::ColorChoice;
 use super::exit::{Failure, NOT_WRITABLE};
+use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 use std::panic;
 use std::sync::{Arc, Mutex};
@@ -33,24 +34,29 @@ impl Terminal {
         Terminal { color, redraws }
     }
 
-    /// One message, as it is.
+    /// One message.
     pub fn say(&self, text: &str) {
-        let _ = writeln!(io::stderr().lock(), "{text}");
+        self.begin_with("", text);
     }
 
     pub fn error(&self, text: &str) {
-        self.say(&format!("{} {text}", self.paint("error:")));
+        self.begin_with("error:", &format!(" {text}"));
     }
 
     pub fn warning(&self, text: &str) {
-        self.say(&format!("{} {text}", self.paint("warning:")));
+        self.begin_with("warning:", &format!(" {text}"));
+    }
+
+    /// A message whose first word may be in colour.
+    fn begin_with(&self, word: &str, text: &str) {
+        let _ = writeln!(io::stderr().lock(), "{}{}", self.paint(word), printable(text));
     }
 
     /// A diagnostic, with the word that it begins with in colour.
     pub fn diagnostic(&self, diagnostic: &Diagnostic) {
         let text = diagnostic.to_string();
         let word = ["error", "warning"].into_iter().find(|word| text.starts_with(word)).unwrap_or("");
-        self.say(&format!("{}{}", self.paint(word), &text[word.len()..]));
+        self.begin_with(word, &text[word.len()..]);
     }
 
     fn paint(&self, word: &str) -> String {
@@ -61,6 +67,16 @@ impl Terminal {
             (true, false) => format!("\x1b[1;33m{word}\x1b[0m"),
         }
     }
+}
+
+/// Names come from files: what would move a terminal's cursor, or change its colours, is told instead of done.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let harmful = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if !text.contains(harmful) {
+        return Cow::Borrowed(text);
+    }
+    let told = |c: char| if harmful(c) { c.escape_default().to_string() } else { c.to_string() };
+    Cow::Owned(text.chars().map(told).collect())
 }
 
 /// Writes to standard output. A reader that has gone away got all it wanted.

@@ -14,7 +14,7 @@ use terrarium::output::atomic;
 pub fn run(args: &StudyArgs, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
     set_threads(args.threads)?;
-    let loaded = load_and_report(&args.scene, &args.reading, terminal)?;
+    let loaded = load_and_report(&args.scene, &args.reading, args.options().overrides.unread(), terminal)?;
     prepare(&args.output)?;
     let reporter = Reporter::new(args.progress, args.quiet, terminal);
     let scene = args.scene.display().to_string();

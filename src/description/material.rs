@@ -61,13 +61,17 @@ pub struct Material {
 impl Material {
     /// The names of all textures that it uses.
     pub fn textures(&self) -> impl Iterator<Item = &str> {
-        let weights = [&self.diffuse, &self.specular, &self.reflection, &self.transmission, &self.emission];
         let maps = [
             self.normal_map.as_ref().map(|map| &map.texture),
             self.bump_map.as_ref().map(|map| &map.texture),
         ];
-        let named = weights.into_iter().filter_map(Source::texture).map(|t| &t.name);
-        named.chain(maps.into_iter().flatten()).map(String::as_str)
+        self.colours().chain(maps.into_iter().flatten().map(String::as_str))
+    }
+
+    /// The names of those of its colours and weights.
+    pub fn colours(&self) -> impl Iterator<Item = &str> {
+        let weights = [&self.diffuse, &self.specular, &self.reflection, &self.transmission, &self.emission];
+        weights.into_iter().filter_map(Source::texture).map(|t| t.name.as_str())
     }
 }
 

@@ -14,6 +14,7 @@ mod dispersion;
 mod light;
 mod material;
 mod names;
+mod nature;
 mod object;
 mod photons;
 mod placed;
@@ -40,7 +41,9 @@ pub use object::{Object, Polyhedron, Scatter, Shape, Smooth};
 pub use photons::{Indirect, IndirectBy, Kernel, Photons};
 pub use placed::used_materials;
 pub(crate) use placed::{Use, uses};
-pub use read::{Format, Loaded, load, load_as_written, load_str, load_str_as_written};
+pub use read::{
+    Format, Loaded, Unread, load, load_as_written, load_but, load_str, load_str_as_written, load_str_but,
+};
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use settings::{Antialiasing, Image, Render};

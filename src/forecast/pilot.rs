@@ -40,8 +40,10 @@ const ADAPTIVE_SIDE: u32 = 16;
 const SHARE: f64 = 0.01;
 const SECONDS: (f64, f64) = (0.001, 0.02);
 
-/// Rounds of two blocks a thread, at least: one of them to warm up.
+/// Rounds of two blocks a thread, at least: the first, of one a thread, is to warm up. Fewer where that takes
+/// longer than a plan may.
 const ROUNDS: u32 = 4;
+const FEWEST_ROUNDS: u32 = 2;
 
 /// One sample in so many is timed by its parts.
 const TIMED: u32 = 7;
@@ -53,10 +55,12 @@ impl Pace {
         let camera = &tracer.world.camera;
         let all = f64::from(camera.width) * f64::from(camera.height);
         let threads = rayon::current_num_threads() as u32;
-        let mut round = 0;
+        let (mut round, mut next) = (0, 0);
         let mut sum = Sum::default();
         loop {
-            let blocks: Vec<u32> = (0..2 * threads).map(|i| round * 2 * threads + i).collect();
+            let count = if round == 0 { threads } else { 2 * threads };
+            let blocks: Vec<u32> = (next..next + count).collect();
+            next += count;
             let traced: Vec<Sum> = blocks.par_iter().map(|&i| block(tracer, pass, i)).collect();
             // Caches and branch predictors are cold in the first.
             if round == 1 {
@@ -66,7 +70,9 @@ impl Pace {
             round += 1;
             let predicted = sum.tally.seconds / sum.pixels * all * f64::from(passes);
             let enough = (SHARE * predicted / f64::from(threads)).clamp(SECONDS.0, SECONDS.1);
-            if began.elapsed().as_secs_f64() >= enough && round >= ROUNDS || sum.pixels >= all {
+            let elapsed = began.elapsed().as_secs_f64();
+            let rounds = if elapsed >= SECONDS.1 { FEWEST_ROUNDS } else { ROUNDS };
+            if elapsed >= enough && round >= rounds || sum.pixels >= all {
                 break;
             }
         }

@@ -2,9 +2,7 @@
 
 use super::decision::{Cause, Decision, few};
 use super::{Effect, lighting};
-use crate::description::{
-    Antialiasing, Dispersion, Indirect, Ior, Material, NAMED_IOR, Scene, Source, Use, uses,
-};
+use crate::description::{Antialiasing, Material, Scene, Use, uses};
 
 /// One decision an effect, in their order.
 pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
@@ -14,16 +12,16 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
         .into_iter()
         .map(|effect| match effect {
             Effect::Direct => lights.direct(),
-            Effect::Shadows => lights.shadows(),
-            Effect::SoftShadows => lights.soft_shadows(),
+            Effect::Shadows => lights.shadows(&uses),
+            Effect::SoftShadows => lights.soft_shadows(&uses),
             Effect::Environment => lights.environment(),
             Effect::Highlights => lights.highlights(&uses),
             Effect::Caustics => lights.caustics(scene, &uses),
             Effect::Reflection => Decision::of(
                 effect,
-                who(&uses, ["reflects", "reflect"], |m| match (m.reflection.is_zero(), is_interface(m)) {
+                who(&uses, ["reflects", "reflect"], |m| match (m.reflection.is_zero(), m.is_interface()) {
                     (false, _) => Some(String::new()),
-                    (true, true) if bends(m) => Some(" by Fresnel".to_owned()),
+                    (true, true) if m.bends() => Some(" by Fresnel".to_owned()),
                     _ => None,
                 }),
                 "no reachable material reflects, and none bends light",
@@ -41,7 +39,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::Dispersion => Decision::of(
                 effect,
                 who(&uses, ["disperses", "disperse"], |m| {
-                    (disperses(m) && !m.transmission.is_zero()).then(String::new)
+                    (m.disperses() && !m.transmission.is_zero()).then(String::new)
                 }),
                 "no reachable material that transmits disperses",
             ),
@@ -66,7 +64,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
                 }),
                 "no reachable material names one",
             ),
-            Effect::Indirect => indirect(scene),
+            Effect::Indirect => lights.indirect(scene, &uses),
             Effect::DepthOfField => Decision::of(
                 effect,
                 scene
@@ -105,53 +103,9 @@ pub(super) fn who(
     (!told.is_empty()).then(|| told.join("; ") + &rest)
 }
 
-/// Its index of refraction at the D line.
-pub(super) fn ior(m: &Material) -> f64 {
-    match &m.ior {
-        None => 1.5,
-        Some(Ior::Number(n)) => *n,
-        Some(Ior::Name(name)) => NAMED_IOR.iter().find(|(known, _)| known == name).map_or(1.5, |&(_, n)| n),
-    }
-}
-
-/// Whether its index depends on the wavelength.
-fn disperses(m: &Material) -> bool {
-    match m.dispersion {
-        None => false,
-        Some(Dispersion::Cauchy(b)) => b != 0.0,
-        // The spread is that of n − 1.
-        Some(Dispersion::Abbe(_)) => ior(m) != 1.0,
-    }
-}
-
-/// Whether its index is another than that of the vacuum.
-fn bends(m: &Material) -> bool {
-    ior(m) != 1.0 || disperses(m)
-}
-
-/// Whether light goes through it as through the vacuum, so that it is not there.
-fn is_nothing(m: &Material) -> bool {
-    let clear = Source::Constant(crate::description::Rgb::grey(1.0));
-    !bends(m)
-        && m.transmission == clear
-        && m.reflection.is_zero()
-        && m.specular.is_zero()
-        && m.emission.is_zero()
-        && m.absorption.is_zero()
-}
-
-/// Whether it transmits and is there at all.
-pub(super) fn is_interface(m: &Material) -> bool {
-    !m.transmission.is_zero() && !is_nothing(m)
-}
-
-/// Whether it bends or mirrors light.
-pub(super) fn is_specular(m: &Material) -> bool {
-    !m.reflection.is_zero() || is_interface(m)
-}
-
 fn refraction(uses: &[Use]) -> Decision {
-    let real = who(uses, ["transmits", "transmit"], |m| is_interface(m).then(|| format!(", ior {}", ior(m))));
+    let real =
+        who(uses, ["transmits", "transmit"], |m| m.is_interface().then(|| format!(", ior {}", m.index())));
     if let Some(reason) = real {
         return Decision::on(Effect::Refraction, reason);
     }
@@ -176,7 +130,7 @@ fn nested_media(uses: &[Use]) -> Decision {
         many => {
             let verb = if many.len() == 1 { "transmits" } else { "transmit" };
             let what =
-                if uses.iter().any(|u| is_interface(u.material)) { "" } else { ", all as the vacuum does" };
+                if uses.iter().any(|u| u.material.is_interface()) { "" } else { ", all as the vacuum does" };
             let reason = format!("{} {verb}{what}: overlaps are looked for when they are placed", few(many));
             Decision { effect: Effect::NestedMedia, on: what.is_empty(), reason, cause: Cause::Scene }
         }
@@ -193,19 +147,6 @@ fn texture_names(m: &Material) -> Option<String> {
         }
     }
     (!names.is_empty()).then(|| format!(" {}", few(&names)))
-}
-
-fn indirect(scene: &Scene) -> Decision {
-    match scene.indirect {
-        Indirect::Off => Decision::off(Effect::Indirect, "the scene does not ask for it"),
-        Indirect::On => {
-            Decision::on(Effect::Indirect, "the scene asks for it (`indirect: true`)").because(Cause::Asked)
-        }
-        Indirect::Bounces(n) => {
-            let reason = format!("the scene asks for {n} bounce{}", if n == 1 { "" } else { "s" });
-            Decision::on(Effect::Indirect, reason).because(Cause::Asked)
-        }
-    }
 }
 
 fn antialiasing(scene: &Scene) -> Decision {

@@ -1,9 +1,9 @@
 //! What lights the scene, and what that calls for.
 
 use super::Effect;
-use super::decide::{is_specular, who};
+use super::decide::who;
 use super::decision::{Cause, Decision, few};
-use crate::description::{Light, Material, Photons, Rgb, Scene, Source, Use};
+use crate::description::{Indirect, Light, Material, Photons, Scene, Use};
 
 /// The scene's lights by kind, each by its name; black ones shine nowhere and are left out.
 pub(super) struct Lights<'a> {
@@ -27,7 +27,7 @@ impl<'a> Lights<'a> {
                 Light::Environment { .. } => lights.sky = Some(name),
             }
         }
-        let emitting = uses.iter().filter(|u| emits(u.material));
+        let emitting = uses.iter().filter(|u| u.material.emits());
         for object in emitting.flat_map(|u| u.objects.iter().map(String::as_str)) {
             if !lights.objects.contains(&object) {
                 lights.objects.push(object);
@@ -60,19 +60,20 @@ impl<'a> Lights<'a> {
         Decision::of(Effect::Direct, (!said.is_empty()).then(|| said.join("; ")), otherwise)
     }
 
-    pub fn shadows(&self) -> Decision {
+    pub fn shadows(&self, uses: &[Use]) -> Decision {
         let soft = self.soft();
         let parts =
             [("hard", &self.small), ("soft", &soft)].into_iter().filter(|(_, names)| !names.is_empty());
         let said: Vec<String> = parts.map(|(kind, names)| format!("{kind}: {}", comma(names))).collect();
-        Decision::of(Effect::Shadows, (!said.is_empty()).then(|| said.join("; ")), "the scene has no light")
+        let found = (!said.is_empty()).then(|| said.join("; "));
+        seen_or_off(Decision::of(Effect::Shadows, found, "the scene has no light"), uses)
     }
 
-    pub fn soft_shadows(&self) -> Decision {
+    pub fn soft_shadows(&self, uses: &[Use]) -> Decision {
         let soft = self.soft();
         let verb = if soft.len() == 1 { "has" } else { "have" };
         let found = (!soft.is_empty()).then(|| format!("{} {verb} an extent", few(&soft)));
-        Decision::of(Effect::SoftShadows, found, "no light has an extent")
+        seen_or_off(Decision::of(Effect::SoftShadows, found, "no light has an extent"), uses)
     }
 
     pub fn environment(&self) -> Decision {
@@ -88,22 +89,36 @@ impl<'a> Lights<'a> {
         }
     }
 
+    /// Light goes from one matt surface to another where there is light, and anything matt.
+    pub fn indirect(&self, scene: &Scene, uses: &[Use]) -> Decision {
+        let asked = match scene.indirect {
+            Indirect::Off => return Decision::off(Effect::Indirect, "the scene does not ask for it"),
+            Indirect::On => "the scene asks for it (`indirect: true`)".to_owned(),
+            Indirect::Bounces(n) => format!("the scene asks for {n} bounce{}", if n == 1 { "" } else { "s" }),
+        };
+        if self.all().is_empty() {
+            return Decision::off(Effect::Indirect, format!("{asked}, but it has no light"));
+        }
+        if !seen(uses) {
+            return Decision::off(Effect::Indirect, format!("{asked}, but {}", unseen("it")));
+        }
+        Decision::on(Effect::Indirect, asked).because(Cause::Asked)
+    }
+
     /// Light is focused where there is light, something that bends or mirrors it, and something matt to see
     /// it on. Which of the lights reach which of the objects is not known before they are placed.
     pub fn caustics(&self, scene: &Scene, uses: &[Use]) -> Decision {
         let off = |reason: &str| Decision::off(Effect::Caustics, reason);
         let lights = self.all();
-        let specular: Vec<&str> = objects(uses, is_specular);
+        let specular: Vec<&str> = objects(uses, Material::is_specular);
         if lights.is_empty() {
             return off("the scene has no light");
         }
         if specular.is_empty() {
             return off("no reachable material reflects or transmits");
         }
-        if !uses.iter().any(|u| receives(u.material)) {
-            return off(
-                "nothing can show them: every reachable material only reflects, transmits or is black",
-            );
+        if !seen(uses) {
+            return off(&unseen("them"));
         }
         if scene.photons == Photons::Off {
             return off("the scene says `photons: off`").because(Cause::Asked);
@@ -113,6 +128,20 @@ impl<'a> Lights<'a> {
         let cause = if scene.photons.is_default() { Cause::Scene } else { Cause::Asked };
         Decision::on(Effect::Caustics, reason).because(cause)
     }
+}
+
+/// Whether anything placed can show light that reaches it.
+fn seen(uses: &[Use]) -> bool {
+    uses.iter().any(|u| u.material.receives())
+}
+
+fn unseen(what: &str) -> String {
+    format!("nothing can show {what}: every reachable material only reflects, transmits or is black")
+}
+
+/// Light that nothing can show is not looked for.
+fn seen_or_off(decision: Decision, uses: &[Use]) -> Decision {
+    if decision.on && !seen(uses) { Decision::off(decision.effect, unseen("them")) } else { decision }
 }
 
 /// The objects of these materials, each once.
@@ -132,19 +161,4 @@ fn comma(names: &[&str]) -> String {
     let told: Vec<String> = names.iter().take(4).map(|name| format!("`{name}`")).collect();
     let more = if names.len() > 4 { format!(" and {} more", names.len() - 4) } else { String::new() };
     told.join(", ") + &more
-}
-
-fn emits(m: &Material) -> bool {
-    match &m.emission {
-        Source::Constant(c) => !c.is_zero(),
-        Source::Texture(t) => !t.scale.is_zero(),
-    }
-}
-
-/// Whether light that reaches it can be seen on it: (1−km)·(1−kt)·kd or ks are not zero. What a texture
-/// drives may be anything.
-pub(super) fn receives(m: &Material) -> bool {
-    let one = |weight: &Source| matches!(weight, Source::Constant(c) if *c == Rgb::grey(1.0));
-    let matt = !m.diffuse.is_zero() && !one(&m.reflection) && !one(&m.transmission);
-    matt || !m.specular.is_zero()
 }

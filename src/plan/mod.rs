@@ -92,7 +92,8 @@ impl Plan {
         let until = Until::of(scene, request.until);
         until.check(scene).map_err(Refused)?;
         let progressive = scene.antialiasing == Antialiasing::Progressive;
-        let caustics = overrides.forced || decisions.iter().any(|d| d.effect == Effect::Caustics && d.on);
+        let runs = |effect| overrides.forced || decisions.iter().any(|d| d.effect == effect && d.on);
+        let (caustics, indirect) = (runs(Effect::Caustics), runs(Effect::Indirect));
         let passes = request.passes.clone();
         Ok(Plan {
             antialiasing: scene.antialiasing,
@@ -116,9 +117,9 @@ impl Plan {
             indirect_by: scene.indirect_by,
             indirect_photons: photons::indirect(scene),
             bounces: match scene.indirect {
-                Indirect::Off => 0,
-                Indirect::On => u32::MAX,
-                Indirect::Bounces(n) => n,
+                Indirect::On if indirect => u32::MAX,
+                Indirect::Bounces(n) if indirect => n,
+                _ => 0,
             },
             carried,
             shadows: !overrides.leaves_out(Effect::Shadows),

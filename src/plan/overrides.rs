@@ -5,7 +5,7 @@
 
 use super::decision::{Cause, Decision};
 use super::{Carried, Effect};
-use crate::description::{Antialiasing, Indirect, Light, Photons, Rgb, Scene, Source};
+use crate::description::{Antialiasing, Indirect, Light, Photons, Rgb, Scene, Source, Unread};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -31,6 +31,15 @@ pub struct Refused(pub String);
 impl Overrides {
     pub fn is_empty(&self) -> bool {
         self.without.is_empty() && self.only.is_none() && self.with.is_empty()
+    }
+
+    /// What of the scene is not needed.
+    pub fn unread(&self) -> Unread {
+        Unread {
+            normal_maps: self.leaves_out(Effect::NormalMaps),
+            bump_maps: self.leaves_out(Effect::BumpMaps),
+            environment: self.leaves_out(Effect::Environment),
+        }
     }
 
     pub(super) fn leaves_out(&self, effect: Effect) -> bool {

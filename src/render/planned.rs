@@ -51,7 +51,7 @@ impl Planned {
         let mut photons = stages.stats(world);
         stages.count(&mut photons, &mut Default::default(), first);
         let pixels = u64::from(world.camera.width) * u64::from(world.camera.height);
-        let film = pixels * trace::Tile::bytes_per_pixel(trace::layers(wants)) as u64;
+        let film = (pixels as f64 * trace::Tile::bytes_per_pixel(trace::layers(wants))) as u64;
         let several = passes > 1 && !stages.one_map();
         let later = memory::Later {
             film,

@@ -8,8 +8,8 @@ mod nested;
 mod objects;
 
 use crate::build::World;
-use crate::plan::{Decision, Effect, Plan};
-use crate::scatter::Emission;
+use crate::plan::{Cause, Decision, Effect, Plan};
+use crate::scatter::{self, Emission};
 pub use caustics::LightReach;
 pub use nested::Nested;
 use serde::Serialize;
@@ -22,6 +22,8 @@ pub struct Survey {
     pub nested: Nested,
     /// One an effect, in their order: the plan's, refined.
     pub decisions: Vec<Decision>,
+    /// Overrides that change nothing, and why.
+    pub notes: Vec<String>,
 }
 
 impl Survey {
@@ -34,8 +36,10 @@ impl Survey {
             Effect::NestedMedia if decision.on => nested.refined(decision),
             _ => decision.clone(),
         };
-        let decisions = plan.decisions.iter().map(refined).collect();
-        Survey { lights, nested, decisions }
+        let decisions: Vec<Decision> = plan.decisions.iter().map(refined).collect();
+        let mut notes = plan.notes.clone();
+        notes.extend(idle_caustics(world, plan, &decisions));
+        Survey { lights, nested, decisions, notes }
     }
 
     /// One line an effect, and one a light that caustics could have come from and do not.
@@ -44,4 +48,25 @@ impl Survey {
         let lights = self.lights.iter().filter(|light| !light.on).map(ToString::to_string);
         decisions.chain(lights).map(|line| line + "\n").collect()
     }
+}
+
+/// What of an override about caustics has no effect, as no light reaches what could focus it.
+fn idle_caustics(world: &World, plan: &Plan, decisions: &[Decision]) -> Option<String> {
+    let decided = |decisions: &[Decision]| decisions.iter().find(|d| d.effect == Effect::Caustics).cloned();
+    let (before, after) = (decided(&plan.decisions)?, decided(decisions)?);
+    let overrides = &plan.overrides;
+    if before.on && !after.on {
+        let asked = |list: &[Effect]| list.contains(&Effect::Caustics);
+        if asked(&overrides.with) {
+            return Some(format!("--with caustics adds nothing: {}", after.reason));
+        }
+        if overrides.only.as_deref().is_some_and(asked) {
+            return Some(format!("--only caustics shows nothing of it: {}", after.reason));
+        }
+    }
+    let left_out = !before.on && before.cause == Cause::Overridden;
+    let reached = || scatter::reached(world).iter().any(|objects| !objects.is_empty());
+    (left_out && overrides.without.contains(&Effect::Caustics) && !reached()).then(|| {
+        "--without caustics leaves out nothing: no light reaches what bends or mirrors it".to_owned()
+    })
 }

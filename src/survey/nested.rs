@@ -50,10 +50,14 @@ impl Nested {
 
     pub(super) fn refined(&self, decision: &Decision) -> Decision {
         let told = |[a, b]: &[String; 2]| {
-            if a == b { format!("copies within `{a}` overlap") } else { format!("`{a}` and `{b}` overlap") }
+            if a == b {
+                format!("bounds of copies within `{a}` overlap")
+            } else {
+                format!("the bounds of `{a}` and `{b}` overlap")
+            }
         };
         let reason = match self.pairs.as_slice() {
-            [] => "no two objects that transmit overlap".to_owned(),
+            [] => "no two objects that transmit overlap, not even by their bounds".to_owned(),
             [one] => told(one),
             [one, _] => format!("{}; and 1 more pair", told(one)),
             [one, rest @ ..] => format!("{}; and {} more pairs", told(one), rest.len()),

@@ -114,10 +114,10 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// Of sums that keep these layers.
-    pub fn bytes_per_pixel(layers: Layers) -> usize {
-        let tile = Tile::new(0, 0, 1, 1, layers);
-        tile.memory_bytes()
+    /// Of sums that keep these layers, with the share that a pixel has in a probe.
+    pub fn bytes_per_pixel(layers: Layers) -> f64 {
+        const SIDE: u32 = 64;
+        Tile::new(0, 0, SIDE, SIDE, layers).memory_bytes() as f64 / f64::from(SIDE * SIDE)
     }
 
     pub fn new(x: u32, y: u32, width: u32, height: u32, layers: Layers) -> Tile {

@@ -1,15 +1,15 @@
 //! The files that a scene names must be there and readable. An image that no placed object's material
-//! names is not read: only a warning.
+//! names, or that is left out, is not read: only a warning.
 
 use super::{Checker, Kind, Severity};
 use crate::description::suggest::nearest;
 use crate::description::tree::Path;
-use crate::description::used_materials;
+use crate::description::{Material, Unread, used_materials};
 use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
-pub(super) fn check(c: &mut Checker, files: &[(String, Path)]) {
-    let idle = idle_images(c);
+pub(super) fn check(c: &mut Checker, files: &[(String, Path)], unread: Unread) {
+    let idle = idle_images(c, unread);
     let mut problems: HashMap<&str, Option<String>> = HashMap::new();
     for (path, place) in files {
         if path.is_empty() {
@@ -25,11 +25,22 @@ pub(super) fn check(c: &mut Checker, files: &[(String, Path)]) {
 }
 
 /// The places of images that are not read.
-fn idle_images(c: &Checker) -> Vec<Path> {
+fn idle_images(c: &Checker, unread: Unread) -> Vec<Path> {
     let used = used_materials(c.scene);
     let materials = c.scene.materials.iter().filter(|(name, _)| used.contains(name));
-    let read: HashSet<&str> = materials.flat_map(|(_, material)| material.textures()).collect();
-    c.scene.textures.names().filter(|name| !read.contains(name)).map(Path::image_texture).collect()
+    let read: HashSet<&str> = materials.flat_map(|(_, material)| read_by(material, unread)).collect();
+    let textures = c.scene.textures.names().filter(|name| !read.contains(name)).map(Path::image_texture);
+    let skies = c.scene.lights.names().filter(|_| unread.environment).map(Path::environment_image);
+    textures.chain(skies).collect()
+}
+
+/// The textures that a material needs.
+fn read_by(material: &Material, unread: Unread) -> impl Iterator<Item = &str> {
+    let maps = [
+        material.normal_map.as_ref().filter(|_| !unread.normal_maps).map(|map| map.texture.as_str()),
+        material.bump_map.as_ref().filter(|_| !unread.bump_maps).map(|map| map.texture.as_str()),
+    ];
+    material.colours().chain(maps.into_iter().flatten())
 }
 
 /// Why a file cannot be read.

@@ -44,7 +44,13 @@ fn check_material(c: &mut Checker, path: &Path, material: &Material) {
     }
     match material.dispersion {
         Some(Dispersion::Abbe(v)) => c.within(&path.key("dispersion").key("abbe"), v, 5.0, 200.0),
-        Some(Dispersion::Cauchy(b)) => c.within(&path.key("dispersion").key("cauchy"), b, 0.0, 0.1),
+        Some(Dispersion::Cauchy(b)) => {
+            let place = path.key("dispersion").key("cauchy");
+            c.within(&place, b, 0.0, 0.1);
+            if b == 0.0 {
+                c.warn(&place, "a dispersion of 0 does nothing");
+            }
+        }
         None => {}
     }
     if material.dispersion.is_some() && material.transmission.is_zero() {
@@ -57,7 +63,14 @@ fn check_material(c: &mut Checker, path: &Path, material: &Material) {
         c.warn_about(&[&path.key("absorption"), &path.key("transmission")], message);
     }
     if let Some(map) = &material.normal_map {
-        c.within(&path.key("normal_map").key("strength"), map.strength, 0.0, 10.0);
+        let place = path.key("normal_map").key("strength");
+        c.within(&place, map.strength, 0.0, 10.0);
+        if map.strength == 0.0 {
+            c.warn(&place, "a normal map of strength 0 does nothing");
+        }
+    }
+    if material.bump_map.as_ref().is_some_and(|map| map.height_m == 0.0) {
+        c.warn(&path.key("bump_map").key("height_m"), "a bump map of height 0 does nothing");
     }
     energy::check(c, path, material);
 }

@@ -11,6 +11,7 @@ mod references;
 mod settings;
 mod usage;
 
+use super::Unread;
 use super::diagnostic::{Diagnostic, Kind, Report, Severity};
 use super::source::Sources;
 use super::tree::{Index, Path, number};
@@ -20,7 +21,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path as FilePath;
 
 /// All that is wrong or doubtful with a scene whose tree is `root`; the paths of `files`, which it
-/// names, are relative to `folder`. In an `incomplete` scene (an included file is missing) no names are looked up; only a
+/// names, are relative to `folder`; those of what is left `unread` may be missing. In an `incomplete` scene (an included file is missing) no names are looked up; only a
 /// `sound` one, without mistakes so far, can give rise to doubts.
 pub(super) fn check(
     scene: &Scene,
@@ -28,6 +29,7 @@ pub(super) fn check(
     sources: &Sources,
     folder: &FilePath,
     files: &[(String, Path)],
+    unread: Unread,
     incomplete: bool,
     sound: bool,
 ) -> Vec<Diagnostic> {
@@ -52,7 +54,7 @@ pub(super) fn check(
     materials::check(&mut checker);
     lights::check(&mut checker);
     objects::check(&mut checker);
-    files::check(&mut checker, files);
+    files::check(&mut checker, files, unread);
     if !incomplete {
         references::check(&mut checker);
         // a wrong name makes another one unused: nothing that needs saying

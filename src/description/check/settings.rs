@@ -59,6 +59,13 @@ fn check_camera(c: &mut Checker, camera: &Camera) {
     }
     c.not_negative(&Path::of("camera.aperture_m"), camera.aperture_m);
     if let Some(focus) = camera.focus_m {
-        c.positive(&Path::of("camera.focus_m"), focus);
+        let place = Path::of("camera.focus_m");
+        c.positive(&place, focus);
+        if camera.aperture_m == 0.0 && focus > 0.0 {
+            c.warn(
+                &place,
+                "`focus_m` does nothing where `aperture_m` is 0: a pinhole shows everything sharply",
+            );
+        }
     }
 }

@@ -4,7 +4,7 @@
 use super::objects::list;
 use super::{Checker, Report, Severity};
 use crate::description::tree::Path;
-use crate::description::{Object, Shape};
+use crate::description::{IndirectBy, Object, Photons, Shape, uses};
 use std::collections::HashSet;
 
 pub(super) fn check(c: &mut Checker) {
@@ -22,6 +22,7 @@ pub(super) fn check(c: &mut Checker) {
     if scene.objects.is_empty() && !c.root.find(&list()).hole {
         c.warn(&Path::default(), "the scene has no objects");
     }
+    idle_settings(c);
     let emits = scene.materials.iter().any(|(_, m)| !m.emission.is_zero());
     let lit = !scene.lights.is_empty() || !scene.ambient.is_zero() || !scene.background.is_zero();
     if !lit && !emits {
@@ -29,6 +30,35 @@ pub(super) fn check(c: &mut Checker) {
             &Path::default(),
             "nothing shines in the scene: no light, no emission, no ambient, no background",
         );
+    }
+}
+
+/// Settings of light that this scene cannot have.
+fn idle_settings(c: &mut Checker) {
+    let uses = uses(c.scene);
+    let any = |of: fn(&crate::description::Material) -> bool| uses.iter().any(|u| of(u.material));
+    let lit = c.scene.lights.iter().any(|(_, light)| !light.is_black()) || any(|m| m.emits());
+    let why = if !lit {
+        Some("the scene has no light")
+    } else if !any(|m| m.receives()) {
+        Some("nothing placed can show it: every material only reflects, transmits or is black")
+    } else {
+        None
+    };
+    let (indirect, by) = (Path::of("indirect"), Path::of("indirect_by"));
+    match why {
+        Some(why) if !c.scene.indirect.is_off() => {
+            c.warn(&indirect, format!("`indirect` does nothing: {why}"))
+        }
+        None if c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::default() => {
+            c.warn(&by, "`indirect_by` does nothing without `indirect`");
+        }
+        _ => {}
+    }
+    let photons = !c.scene.photons.is_default() && c.scene.photons != Photons::Off;
+    let by_photons = !c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::Paths;
+    if photons && !by_photons && !any(|m| m.is_specular()) {
+        c.warn(&Path::of("photons"), "`photons` do nothing: nothing placed reflects or transmits");
     }
 }
 

@@ -53,17 +53,41 @@ pub struct Loaded {
     pub(super) places: Arc<Places>,
 }
 
+/// What of a scene a caller will leave out, so that files which nothing else names may be missing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unread {
+    pub normal_maps: bool,
+    pub bump_maps: bool,
+    pub environment: bool,
+}
+
 /// Reads and checks a scene file, after `overrides` (`path.to.key=value`) have been applied to it.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Report> {
+    load_but(path, overrides, Unread::default())
+}
+
+/// As [`load`]; missing files of what is left `unread` are warnings.
+pub fn load_but(path: &Path, overrides: &[String], unread: Unread) -> Result<Loaded, Report> {
     let (text, format) = open(path)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    Reading::new(folder).load(Some(path.to_owned()), text, format, overrides)
+    Reading { unread, ..Reading::new(folder) }.load(Some(path.to_owned()), text, format, overrides)
 }
 
 /// Reads and checks a scene that is at hand as text; its paths are relative to `folder`.
 pub fn load_str(text: &str, format: Format, folder: &Path, overrides: &[String]) -> Result<Loaded, Report> {
+    load_str_but(text, format, folder, overrides, Unread::default())
+}
+
+/// As [`load_str`]; missing files of what is left `unread` are warnings.
+pub fn load_str_but(
+    text: &str,
+    format: Format,
+    folder: &Path,
+    overrides: &[String],
+    unread: Unread,
+) -> Result<Loaded, Report> {
     let text = source::without_mark(text.to_owned());
-    Reading::new(folder.to_owned()).load(None, text, format, overrides)
+    Reading { unread, ..Reading::new(folder.to_owned()) }.load(None, text, format, overrides)
 }
 
 /// The scene of a file alone, for `convert`: `include` and paths as written, values not checked.
@@ -106,11 +130,18 @@ struct Reading {
     diagnostics: Vec<Diagnostic>,
     /// An included file could not be read: names may be missing for that reason.
     incomplete: bool,
+    unread: Unread,
 }
 
 impl Reading {
     fn new(folder: PathBuf) -> Reading {
-        Reading { folder, sources: Sources::default(), diagnostics: Vec::new(), incomplete: false }
+        Reading {
+            folder,
+            sources: Sources::default(),
+            diagnostics: Vec::new(),
+            incomplete: false,
+            unread: Unread::default(),
+        }
     }
 
     fn error(&mut self, kind: Kind, span: Span, message: String) {
@@ -178,7 +209,16 @@ impl Reading {
                 named.push((path.clone(), place.clone()));
             });
             let (folder, sound) = (&self.folder, self.diagnostics.is_empty());
-            let found = check::check(&scene, &index, &self.sources, folder, &named, self.incomplete, sound);
+            let found = check::check(
+                &scene,
+                &index,
+                &self.sources,
+                folder,
+                &named,
+                self.unread,
+                self.incomplete,
+                sound,
+            );
             self.diagnostics.extend(found);
             spans = Places::find(&scene, &index);
             Some(scene)
