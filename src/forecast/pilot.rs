@@ -34,7 +34,7 @@ impl RaysByPixel {
 
 /// The side of a block in samples, and in pixels where adaptive antialiasing shares cells within it.
 const SIDE: u32 = 8;
-const ADAPTIVE_SIDE: u32 = 16;
+const ADAPTIVE_SIDE: u32 = 8;
 
 /// The pilot's wall time: a share of what it foretells, seconds at the least and at the most.
 const SHARE: f64 = 0.01;
