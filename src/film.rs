@@ -3,7 +3,7 @@
 mod accuracy;
 mod brightness;
 
-use crate::trace::{LUMINANCE, Layer, Layers, Tile};
+use crate::trace::{LUMINANCE, Layer, Layers, Measured, Probe, Resting, Tile};
 pub use accuracy::{Accuracy, BIAS_RATE, Part};
 use brightness::Brightness;
 
@@ -55,6 +55,23 @@ impl Film {
 
     /// How far it still is from the truth; `None` where that is unknown.
     pub fn accuracy(&self) -> Option<Accuracy> {
+        Accuracy::of(self.measured(), self.probes(), &self.brightness())
+    }
+
+    /// Lets those blocks of pixels rest whose own squared error is at most `enough`.
+    pub fn rest(&self, accuracy: &Accuracy, enough: f64, resting: &mut Resting) {
+        accuracy::done(self.measured(), self.probes(), &self.brightness(), accuracy.gain, enough, resting);
+    }
+
+    fn measured(&self) -> impl Iterator<Item = Measured> {
+        self.tiles.iter().flat_map(Tile::measured)
+    }
+
+    fn probes(&self) -> impl Iterator<Item = &Probe> {
+        self.tiles.iter().flat_map(Tile::probes)
+    }
+
+    fn brightness(&self) -> Brightness {
         let mut values = vec![0.0; self.width as usize * self.height as usize];
         for tile in &self.tiles {
             for (x, y) in tile.pixels() {
@@ -62,10 +79,7 @@ impl Film {
                 values[y as usize * self.width as usize + x as usize] = value as f32;
             }
         }
-        let picture = Brightness { width: self.width, height: self.height, values };
-        let (pixels, probes) =
-            (self.tiles.iter().flat_map(Tile::measured), self.tiles.iter().flat_map(Tile::probes));
-        Accuracy::of(pixels, probes, &picture)
+        Brightness { width: self.width, height: self.height, values }
     }
 
     pub fn memory_bytes(&self) -> usize {

@@ -97,8 +97,11 @@ fn accuracy(stats: &Stats) -> Vec<String> {
         return vec![format!("accuracy: unknown, {why}")];
     };
     let [low, high] = a.interval;
+    // Some pixels may have come to rest.
+    let fewer = a.mean_passes < 0.99 * f64::from(a.passes);
+    let mean = if fewer { format!(" (a pixel has {:.0} on average)", a.mean_passes) } else { String::new() };
     let mut lines = vec![format!(
-        "accuracy: error {} (95 %: {} to {}) after {} passes; noise {}, bias {}",
+        "accuracy: error {} (95 %: {} to {}) after {} passes{mean}; noise {}, bias {}",
         percent(a.error),
         significant(100.0 * low),
         percent(high),

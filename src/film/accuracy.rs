@@ -17,22 +17,26 @@
 //! What no pass can tell is not in it: the depth limit, three colours, facets of meshes, and paths so rare
 //! that none was found.
 
+mod class;
+mod done;
 mod independent;
 mod law;
 mod sums;
 
 use super::brightness::Brightness;
 use crate::math::DVec3;
-use crate::math::random::{combine, mix};
 use crate::trace::{Measured, Probe};
-use independent::Independent;
+use class::Classes;
+pub(super) use done::done;
 use serde::Serialize;
-use sums::Sums;
 
 /// The relative RMS error of a picture, 1 for 100 %.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Accuracy {
+    /// Of the pixels that have the most.
     pub passes: u32,
+    /// On average over the pixels: some may have come to rest earlier.
+    pub mean_passes: f64,
     /// Noise and bias together: their squares add up to its square.
     pub error: f64,
     /// Within this with 95 % confidence.
@@ -40,6 +44,9 @@ pub struct Accuracy {
     pub noise: f64,
     pub bias: f64,
     pub by_effect: Vec<Part>,
+    /// The squared noise of the pixels with the most passes, over what it would be if these were independent.
+    #[serde(skip)]
+    pub gain: f64,
 }
 
 /// What one effect adds.
@@ -59,8 +66,7 @@ pub struct Part {
 /// 0.01/0.18²: see the module's text.
 const FLOOR: f64 = 0.31;
 
-/// Groups of probes, to see how much the estimate hangs on some of them; Student's t for 95 % and one less.
-const GROUPS: u64 = 16;
+/// Student's t for 95 % and one less than the groups that probes are divided into.
 const STUDENT: f64 = 2.131;
 
 /// The squared bias of progressive passes falls as n^−2(1−α), α = 2/3 (Knaus & Zwicker 2011).
@@ -78,34 +84,18 @@ impl Accuracy {
         if !(floor > 0.0 && floor.is_finite()) {
             return None;
         }
-        let mut probes: Vec<&Probe> = probes.filter(|probe| probe.passes > 1).collect();
-        // A fixed order, whatever the tiles, so that sums have the same bits.
-        probes.sort_by_key(|probe| (probe.y, probe.x));
-        // A last pass that was broken off left some with one more: as most have it.
-        let [least, most] = [probes.iter().map(|p| p.passes).min()?, probes.iter().map(|p| p.passes).max()?];
-        let fewer = probes.iter().filter(|probe| probe.passes == least).count();
-        let passes = if 2 * fewer >= probes.len() { least } else { most };
-        probes.retain(|probe| probe.passes == passes);
-        let part = probes.first()?.part;
-
-        let independent = Independent::of(pixels, picture, floor);
-        let mut groups = vec![Sums::default(); GROUPS as usize];
-        for probe in &probes {
-            let group = combine(mix(u64::from(probe.x)), u64::from(probe.y)) % GROUPS;
-            groups[group as usize].add(probe, picture, floor);
-        }
-        let all = groups.iter().fold(Sums::default(), |sum, group| sum.with(group, 1.0));
-        let squared = |sums: &Sums| independent.mean * sums.gain(part, passes) + sums.bias(2);
-        let e = squared(&all).sqrt();
-        let mut accuracy = all.accuracy(part, passes, independent.mean);
+        let classes = Classes::of(pixels, probes, picture, floor)?;
+        let squared = classes.squared(None);
+        let e = squared.sqrt();
+        let mut accuracy = classes.accuracy();
+        let passes = accuracy.passes;
         // Chance in the pixels' errors and in what is known of them; the jackknife over groups of probes, of ln E;
         // and how far the model may be off.
         let chance =
-            0.5 * TWO_SIGMA * (2.0 * f64::from(passes) / f64::from(passes - 1)).sqrt() * independent.scatter;
-        let logs: Vec<f64> = groups
-            .iter()
-            .filter(|group| group.count > 0.0)
-            .map(|group| 0.5 * libm::log(squared(&all.with(group, -1.0)).max(1e-6 * e * e) / (e * e)))
+            0.5 * TWO_SIGMA * (2.0 * f64::from(passes) / f64::from(passes - 1)).sqrt() * classes.scatter();
+        let logs: Vec<f64> = classes
+            .groups()
+            .map(|group| 0.5 * libm::log(classes.squared(Some(group)).max(1e-6 * squared) / squared))
             .filter(|log| log.is_finite())
             .collect();
         let n = (logs.len() as f64).max(1.0);

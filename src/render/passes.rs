@@ -5,7 +5,7 @@ use super::prepare::Prepared;
 use super::stop::Stop;
 use super::{Options, Planned, Progress};
 use crate::film::Film;
-use crate::trace::{self, Tally};
+use crate::trace::{self, Tally, Tracer};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -46,7 +46,7 @@ pub(super) fn trace(
         if !stages.one_map() || begin == plan.first_pass {
             stages.count(&mut photons, &mut tally.health, &maps);
         }
-        let tracer = ready.tracer(&maps);
+        let tracer = Tracer { resting: stop.resting(), ..ready.tracer(&maps) };
         let stop_here = &stop;
         let trace = || -> Vec<Tally> {
             film.tiles

@@ -45,8 +45,15 @@ impl Prepared {
         let wants = options.wants(world.camera.width, world.camera.height);
         let mut reference_level = 1.0;
         if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
-            let tracer =
-                Tracer { world: &world, plan: &plan, wants, reference_level, caustics: None, indirect: None };
+            let tracer = Tracer {
+                world: &world,
+                plan: &plan,
+                wants,
+                reference_level,
+                caustics: None,
+                indirect: None,
+                resting: None,
+            };
             reference_level = trace::reference_level(&tracer);
         }
         let stages = PassStages::new(&world, &plan);
@@ -74,6 +81,7 @@ impl Prepared {
             reference_level: self.reference_level,
             caustics: self.stages.caustics(maps),
             indirect: self.stages.indirect(maps),
+            resting: None,
         }
     }
 

@@ -1,5 +1,8 @@
 //! Rules that end a render before its last pass: a time, an error.
 //!
+//! An error to be reached sends samples where the error is: from time to time, blocks of pixels whose own error
+//! is well below it come to rest.
+//!
 //! The time is that of the whole process. Tiles of a last pass that would come too late are left as they
 //! are: a pixel's value is the mean of the passes that it has, and which those are does not depend on what
 //! they found. The error is looked at after 4 passes and then where it is likely to be reached, and never
@@ -8,6 +11,7 @@
 use super::{Options, Progress};
 use crate::film::Film;
 use crate::plan::{FEWEST, Plan, Until};
+use crate::trace::Resting;
 use std::time::{Duration, Instant};
 
 pub(super) struct Stop {
@@ -17,7 +21,15 @@ pub(super) struct Stop {
     pass_began: Instant,
     slowest_pass: Duration,
     check_at: u32,
+    resting: Option<Resting>,
 }
+
+/// Blocks may rest after this many passes, and twice as many, and so on: full parts of a sequence that is well
+/// distributed.
+const FIRST_REST: u32 = 16;
+
+/// The part of the squared error to be reached that a block which rests may have.
+const SETTLED: f64 = 0.5;
 
 /// Seconds kept for writing the images: at the least, and by value of the image.
 const WRITING: (f64, f64) = (0.02, 60e-9);
@@ -30,7 +42,9 @@ impl Stop {
             let left = (seconds - WRITING.0 - WRITING.1 * values).max(0.0);
             options.began.unwrap_or(now) + Duration::from_secs_f64(left)
         });
-        Stop { until: plan.until, deadline, pass_began: now, slowest_pass: Duration::ZERO, check_at: FEWEST }
+        let resting = plan.until.error.map(|_| Resting::none(film.width, film.height));
+        let slowest_pass = Duration::ZERO;
+        Stop { until: plan.until, deadline, pass_began: now, slowest_pass, check_at: FEWEST, resting }
     }
 
     /// Whether tiles would come too late. The first pass is always traced.
@@ -43,6 +57,11 @@ impl Stop {
         self.deadline.is_none_or(|deadline| Instant::now() + self.slowest_pass < deadline)
     }
 
+    /// Pixels that need no more passes.
+    pub fn resting(&self) -> Option<&Resting> {
+        self.resting.as_ref()
+    }
+
     /// Whether `passes` passes are enough.
     pub fn now(&mut self, passes: u32, film: &Film, progress: &dyn Progress) -> bool {
         let now = Instant::now();
@@ -51,11 +70,24 @@ impl Stop {
         if self.deadline.is_some_and(|deadline| now >= deadline) {
             return true;
         }
-        let Some(target) = self.until.error.filter(|_| passes >= self.check_at) else { return false };
-        let Some(accuracy) = film.accuracy() else { return false };
-        progress.error(accuracy.error, target);
+        let Some(target) = self.until.error else { return false };
+        let rests = passes >= FIRST_REST && passes.is_power_of_two();
+        let looks = passes >= self.check_at;
+        let Some(accuracy) = (rests || looks).then(|| film.accuracy()).flatten() else { return false };
+        if looks {
+            progress.error(accuracy.error, target);
+        }
         if accuracy.error <= target {
             return true;
+        }
+        if let Some(resting) = self.resting.as_mut().filter(|_| rests) {
+            film.rest(&accuracy, SETTLED * target * target, resting);
+            if resting.all() {
+                *resting = Resting::none(film.width, film.height);
+            }
+        }
+        if !looks {
+            return false;
         }
         let likely = accuracy.passes_for(target).ceil().min(f64::from(u32::MAX / 4)) as u32;
         self.check_at = likely.clamp(passes + passes.div_ceil(2), 4 * passes);

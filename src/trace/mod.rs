@@ -11,6 +11,7 @@ mod light;
 mod path;
 mod probe;
 mod reference_level;
+mod resting;
 mod sample;
 mod tile;
 mod watch;
@@ -22,6 +23,7 @@ use crate::plan::Plan;
 pub use path::Scratch;
 pub use probe::{Kind, LUMINANCE, Probe, Probes};
 pub use reference_level::reference_level;
+pub use resting::Resting;
 pub use sample::{Sample, Wants};
 use serde::Serialize;
 use std::time::Instant;
@@ -98,6 +100,8 @@ pub struct Tracer<'a> {
     pub caustics: Option<Caustics<'a>>,
     /// Those of indirect light, where it is found by photons.
     pub indirect: Option<Caustics<'a>>,
+    /// Pixels that progressive antialiasing leaves as they are.
+    pub resting: Option<&'a Resting>,
 }
 
 /// Adds the passes of `passes` to a tile, in order, and times one sample in `timed` by its parts.

@@ -1,6 +1,7 @@
 //! What a render says of its own error, against the error.
 
 mod estimate;
+mod resting;
 mod stated;
 
 /// Deterministic values (SplitMix64).

@@ -1,7 +1,7 @@
 //! What probes tell of the noise and the bias, and of which effects bring them.
 
 use super::law::Law;
-use super::{Accuracy, Part, weight};
+use super::weight;
 use crate::film::brightness::Brightness;
 use crate::math::DVec3;
 use crate::trace::{Kind, Probe};
@@ -105,42 +105,27 @@ impl Sums {
         if independent > 0.0 { noise / independent } else { 1.0 }
     }
 
-    /// `independent`: the squared error of all pixels, were their passes independent.
-    pub fn accuracy(&self, part: u32, passes: u32, independent: f64) -> Accuracy {
+    /// The squared noise of the probes by effect.
+    pub fn rows(&self, part: u32, passes: u32) -> [Row; 4] {
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
         let [place, all] = self.place;
         let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
         let [rest, rate] = self.noise(Kind::Rest, part, passes);
         let [caustic, caustic_rate] = self.noise(Kind::Caustic, part, passes);
         let [indirect, indirect_rate] = self.noise(Kind::Indirect, part, passes);
-        let rows = [
-            ("edges", rest * edges, 0.0, rate),
-            ("direct", rest * (1.0 - edges), 0.0, rate),
-            ("caustics", caustic, self.bias(0), caustic_rate),
-            ("indirect", indirect, self.bias(1), indirect_rate),
-        ];
-        // Probes tell how it is shared, all pixels how much it is.
-        let noise = independent * self.gain(part, passes);
-        let probed = rest + caustic + indirect;
-        let scale = if probed > 0.0 { noise / probed } else { 0.0 };
-        let rows = rows.map(|(effect, noise, bias, rate)| (effect, noise * scale, bias, rate));
-        let error = (noise + self.bias(2)).sqrt();
-        let sum: f64 = rows.iter().map(|(_, noise, bias, _)| noise + bias).sum();
-        let rows = rows.into_iter().filter(|(_, noise, bias, _)| noise + bias > 0.0);
-        let part = |(effect, noise, bias, rate): (&'static str, f64, f64, f64)| Part {
-            effect,
-            share: (noise + bias) / sum,
-            rate,
-            noise: noise.sqrt(),
-            bias: bias.sqrt(),
-        };
-        Accuracy {
-            passes,
-            error,
-            interval: [error; 2],
-            noise: noise.sqrt(),
-            bias: self.bias(2).sqrt(),
-            by_effect: rows.map(part).collect(),
-        }
+        [
+            Row { effect: "edges", noise: rest * edges, rate },
+            Row { effect: "direct", noise: rest * (1.0 - edges), rate },
+            Row { effect: "caustics", noise: caustic, rate: caustic_rate },
+            Row { effect: "indirect", noise: indirect, rate: indirect_rate },
+        ]
     }
+}
+
+/// What one effect adds to the squared noise, and the rate at which that falls.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub effect: &'static str,
+    pub noise: f64,
+    pub rate: f64,
 }

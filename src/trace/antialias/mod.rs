@@ -76,7 +76,8 @@ fn with_bias(value: PixelValue, tally: &mut Tally, samples: u32) -> PixelValue {
 
 /// One sample, well distributed over the pixel's passes.
 fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
-    for (x, y) in tile.pixels() {
+    let rests = |x: u32, y: u32| tracer.resting.is_some_and(|resting| resting.has(x, y));
+    for (x, y) in tile.pixels().filter(|&(x, y)| !rests(x, y)) {
         let item = pixel_number(tracer, x, y);
         let sequence = Sequence::new(tracer.plan.seed, Stage::Film, item, pass);
         let [dx, dy] = sequence.pair();
