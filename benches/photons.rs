@@ -3,18 +3,21 @@
 //! The plain queries are of the same kind of rays: recorded from paths that leave the lamp for the glass and
 //! go on by Fresnel's chance until they meet what is opaque. A photon's ray costs such a query and what
 //! happens at its end: the surface, Snell and Fresnel, the draw, the ledger, and for the first ray the
-//! emission. Both take turns, block by block, and the best time of each counts.
+//! emission. The third rate is that of camera paths through the same glass, which have the same to do at the
+//! end of each ray, and shade besides: shadow rays are counted as rays. All take turns, block by block, and
+//! the best time of each counts.
 //! `cargo bench --bench photons`
 
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 use terrarium::build::{Cone, Shading, World, build};
-use terrarium::description::load;
+use terrarium::description::{Loaded, load};
 use terrarium::math::random::{Counter, Stage};
 use terrarium::math::{DVec3, Health, Ray, sampling};
 use terrarium::optics::EmitterKind;
-use terrarium::plan::{Plan, Request};
+use terrarium::plan::{Effect, Overrides, Plan, Request};
+use terrarium::render::{Options, Silent, render};
 use terrarium::scatter::Emission;
 
 const PHOTONS: u64 = 200_000;
@@ -22,15 +25,20 @@ const TURNS: u32 = 8;
 
 fn main() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
-    println!("{:34}{:>16}{:>16}{:>8}{:>12}", "", "photons", "plain rays", "ratio", "rays/photon");
+    println!(
+        "{:34}{:>14}{:>16}{:>8}{:>16}{:>8}{:>12}",
+        "", "photons", "plain rays", "ratio", "camera paths", "ratio", "rays/photon"
+    );
     for scene in ["caustic-sphere.ron", "cornell-glass.ron"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/yardstick").join(scene);
-        let scene_text = load(&path, &[]).expect("the yardstick's scenes are valid").scene;
-        let plan = Plan::new(&scene_text, &Request::default()).expect("nothing is overridden");
-        let world = build(&scene_text, &plan).expect("the yardstick's scenes can be built").world;
+        let loaded = load(&path, &[]).expect("the yardstick's scenes are valid");
+        let scene_text = &loaded.scene;
+        let plan = Plan::new(scene_text, &Request::default()).expect("nothing is overridden");
+        let world = build(scene_text, &plan).expect("the yardstick's scenes can be built").world;
         let emission = Emission::new(&world, &plan).expect("light reaches the glass");
         let rays = photon_rays(&world, PHOTONS as usize);
         let (mut scattering, mut plain, mut counted, mut emitted) = (f64::INFINITY, f64::INFINITY, 0, 0);
+        let mut camera = f64::INFINITY;
         for pass in 0..TURNS {
             pool.install(|| {
                 let start = Instant::now();
@@ -42,15 +50,27 @@ fn main() {
                 plain = plain.min(start.elapsed().as_secs_f64() / rays.len() as f64);
                 black_box(hits);
             });
+            camera = camera.min(camera_path(&loaded));
         }
         println!(
-            "{scene:34}{:10.2} M/s {:10.2} M/s {:8.2}{:12.2}",
+            "{scene:34}{:9.2} M/s {:10.2} M/s {:7.2} {:10.2} M/s {:7.2} {:11.2}",
             1e-6 / scattering,
             1e-6 / plain,
             plain / scattering,
+            1e-6 / camera,
+            camera / scattering,
             counted as f64 / emitted as f64
         );
     }
+}
+
+/// Seconds a ray of camera paths, without photons, on one thread.
+fn camera_path(loaded: &Loaded) -> f64 {
+    let overrides = Overrides { without: vec![Effect::Caustics, Effect::Indirect], ..Overrides::default() };
+    let options = Options { passes: Some(0..2), threads: Some(1), overrides, ..Options::default() };
+    let stats = render(loaded, &options, &Silent).expect("the yardstick's scenes can be rendered").stats;
+    let traced = stats.stages.iter().find(|stage| stage.name == "trace").expect("a stage of every render");
+    traced.seconds / stats.rays.total() as f64
 }
 
 /// The rays of paths from the first lamp to the first medium and on to what is opaque.

@@ -19,7 +19,7 @@ use crate::plan::Plan;
 use crate::survey::Survey;
 use crate::trace::Tally;
 use clock::Clock;
-pub use next::{Factor, Next};
+pub use next::{Factor, Next, not_seen};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
 use passes::Traced;
 pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};

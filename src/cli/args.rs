@@ -194,6 +194,10 @@ pub struct PlanArgs {
     /// changes in the image
     #[arg(long)]
     pub measure: bool,
+    /// Trace the first 8 passes, and say how accurate the planned picture will be and what half of that
+    /// error would cost
+    #[arg(long)]
+    pub accuracy: bool,
     /// How to show progress; `auto` is a bar on a terminal and plain lines elsewhere
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub progress: ProgressChoice,

@@ -11,6 +11,7 @@ use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 use terrarium::description::Loaded;
+use terrarium::measure::{Expected, expected};
 use terrarium::output::hex;
 use terrarium::plan::Effect;
 use terrarium::render::{self, Planned};
@@ -30,6 +31,8 @@ struct Document<'a> {
     planned: &'a Planned,
     #[serde(skip_serializing_if = "Option::is_none")]
     measured: Option<&'a measure::Table>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<&'a Expected>,
 }
 
 /// Plans every scene, whatever is wrong with others; the worst exit code counts.
@@ -74,11 +77,15 @@ fn plan(scene: &Path, args: &PlanArgs, terminal: &Terminal) -> Result<serde_json
     let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
     let measured =
         if args.measure { Some(measure::table(&loaded, &options, &planned, &reporter)?) } else { None };
+    let accuracy = if args.accuracy { Some(expected(&loaded, &options, &planned, &reporter)?) } else { None };
     if !args.json {
         let mut text = format!("{}\n", heading(scene, &loaded, &planned));
         text += &lines(&planned);
         if let Some(table) = &measured {
             text += &table.text();
+        }
+        if let Some(accuracy) = &accuracy {
+            text += &(super::summary::expected(accuracy).join("\n") + "\n");
         }
         report::print(&report::printable(&text))?;
         return Ok(serde_json::Value::Null);
@@ -94,6 +101,7 @@ fn plan(scene: &Path, args: &PlanArgs, terminal: &Terminal) -> Result<serde_json
         load_seconds,
         planned: &planned,
         measured: measured.as_ref(),
+        accuracy: accuracy.as_ref(),
     };
     Ok(serde_json::to_value(&document).expect("numbers, strings and maps of strings"))
 }

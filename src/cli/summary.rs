@@ -3,8 +3,9 @@
 use super::progress::{duration, short};
 use super::report::Terminal;
 use serde::Serialize;
+use terrarium::measure::Expected;
 use terrarium::output::Written;
-use terrarium::render::{PhotonStats, Priced, Stats};
+use terrarium::render::{Next, PhotonStats, Priced, Stats};
 use terrarium::trace::Rays;
 
 /// Everything that `--stats` writes.
@@ -112,14 +113,36 @@ fn accuracy(stats: &Stats) -> Vec<String> {
     let parts: Vec<String> =
         a.by_effect.iter().map(|part| format!("{} {:.0} %", part.effect, 100.0 * part.share)).collect();
     lines.push(format!("  where: {} of the squared error", parts.join(", ")));
-    if let Some(next) = &stats.next {
-        let factors: Vec<String> =
-            next.by_effect.iter().map(|f| format!("{} ×{}", f.effect, significant(f.passes))).collect();
-        let more = duration(next.seconds);
-        lines.push(format!("  next: {} for about {more} more ({})", percent(next.error), factors.join(", ")));
-    }
+    lines.extend(stats.next.iter().map(price_of_half));
     if !stats.not_seen.is_empty() {
         lines.push(format!("  not in it: {}", stats.not_seen.join("; ")));
+    }
+    lines
+}
+
+/// `  next: 0.97 % for about 4 min 10 s more (caustics ×7.9)`.
+fn price_of_half(next: &Next) -> String {
+    let factors: Vec<String> =
+        next.by_effect.iter().map(|f| format!("{} ×{}", f.effect, significant(f.passes))).collect();
+    let (more, error) = (duration(next.seconds), significant(100.0 * next.error));
+    format!("  next: {error} % for about {more} more ({})", factors.join(", "))
+}
+
+/// The same of a render that is planned.
+pub fn expected(expected: &Expected) -> Vec<String> {
+    let mut lines = vec![match expected.error {
+        None => "accuracy: one pass, or a black picture, tells nothing of it".to_owned(),
+        Some(error) => format!(
+            "accuracy: error about {} % after {:.0} passes, {} of tracing (told from the first {})",
+            significant(100.0 * error),
+            expected.passes,
+            duration(expected.seconds),
+            expected.from_passes
+        ),
+    }];
+    lines.extend(expected.next.iter().map(price_of_half));
+    if !expected.not_seen.is_empty() {
+        lines.push(format!("  not in it: {}", expected.not_seen.join("; ")));
     }
     lines
 }

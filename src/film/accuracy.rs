@@ -124,19 +124,24 @@ const TWO_SIGMA: f64 = 1.96;
 impl Accuracy {
     /// The passes in all after which the error will be `target`, at the rates found so far.
     pub fn passes_for(&self, target: f64) -> f64 {
-        let n = f64::from(self.passes);
-        let sum: f64 = self.by_effect.iter().map(|part| part.noise * part.noise).sum();
-        let scale = if sum > 0.0 { self.noise * self.noise / sum } else { 0.0 };
-        let squared = |times: f64| -> f64 {
-            let noise = |part: &Part| scale * part.noise * part.noise * libm::pow(times, -part.rate);
-            self.by_effect.iter().map(noise).sum::<f64>()
-                + self.bias * self.bias * libm::pow(times, -BIAS_RATE)
-        };
         let (mut low, mut high) = (-20.0, 40.0);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if squared(libm::exp2(middle)) > target * target { low = middle } else { high = middle }
+            if self.squared(libm::exp2(middle)) > target * target { low = middle } else { high = middle }
         }
-        n * libm::exp2(high)
+        f64::from(self.passes) * libm::exp2(high)
+    }
+
+    /// The error after so many passes in all, at the rates found so far.
+    pub fn error_after(&self, passes: f64) -> f64 {
+        self.squared(passes / f64::from(self.passes)).sqrt()
+    }
+
+    /// The squared error after so many times the passes.
+    fn squared(&self, times: f64) -> f64 {
+        let sum: f64 = self.by_effect.iter().map(|part| part.noise * part.noise).sum();
+        let scale = if sum > 0.0 { self.noise * self.noise / sum } else { 0.0 };
+        let noise = |part: &Part| scale * part.noise * part.noise * libm::pow(times, -part.rate);
+        self.by_effect.iter().map(noise).sum::<f64>() + self.bias * self.bias * libm::pow(times, -BIAS_RATE)
     }
 }

@@ -34,16 +34,13 @@ impl RaysByPixel {
 
 /// The side of a block in samples, and in pixels where adaptive antialiasing shares cells within it.
 const SIDE: u32 = 8;
-const ADAPTIVE_SIDE: u32 = 8;
 
 /// The pilot's wall time: a share of what it foretells, seconds at the least and at the most.
 const SHARE: f64 = 0.01;
 const SECONDS: (f64, f64) = (0.001, 0.02);
 
-/// Rounds of two blocks a thread, at least: the first, of one a thread, is to warm up. Fewer where that takes
-/// longer than a plan may.
+/// Rounds of two blocks a thread, at least: the first, of one a thread, is to warm up.
 const ROUNDS: u32 = 4;
-const FEWEST_ROUNDS: u32 = 2;
 
 /// One sample in so many is timed by its parts.
 const TIMED: u32 = 7;
@@ -70,9 +67,7 @@ impl Pace {
             round += 1;
             let predicted = sum.tally.seconds / sum.pixels * all * f64::from(passes);
             let enough = (SHARE * predicted / f64::from(threads)).clamp(SECONDS.0, SECONDS.1);
-            let elapsed = began.elapsed().as_secs_f64();
-            let rounds = if elapsed >= SECONDS.1 { FEWEST_ROUNDS } else { ROUNDS };
-            if elapsed >= enough && round >= rounds || sum.pixels >= all {
+            if began.elapsed().as_secs_f64() >= enough && round >= ROUNDS || sum.pixels >= all {
                 break;
             }
         }
@@ -102,9 +97,8 @@ impl Sum {
 /// likely as any other.
 fn block(tracer: &Tracer, pass: u32, i: u32) -> Sum {
     let side = match tracer.plan.antialiasing {
-        Antialiasing::Adaptive { .. } => ADAPTIVE_SIDE,
         Antialiasing::Grid(n) => (2 * SIDE / n).clamp(1, SIDE),
-        Antialiasing::None | Antialiasing::Progressive => SIDE,
+        Antialiasing::Adaptive { .. } | Antialiasing::None | Antialiasing::Progressive => SIDE,
     };
     let camera = &tracer.world.camera;
     let [u, v] = Sequence::new(tracer.plan.seed, Stage::Film, mix(u64::MAX - 1), i).pair();

@@ -3,6 +3,7 @@
 mod comparison;
 mod difference;
 mod display;
+mod expected;
 pub mod flip;
 pub mod heat;
 mod leave_out;
@@ -17,6 +18,7 @@ pub use comparison::{
     Colour, CompareError, Comparison, HdrFlip, LayerDifference, Settings, compare_files, pairs,
 };
 pub use difference::{Difference, compare};
+pub use expected::{Expected, expected};
 pub use leave_out::{LeftOut, Prices, prices};
 pub use limits::{Limits, Pixels, Verdict};
 pub use relative::{EPSILON, FLOOR, Relative, TRIMMED, relative};

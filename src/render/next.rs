@@ -23,9 +23,9 @@ pub struct Factor {
 }
 
 impl Next {
-    /// `seconds`: wall time of a pass.
-    pub(super) fn of(accuracy: &Accuracy, seconds: f64) -> Option<Next> {
-        let error = 0.5 * accuracy.error;
+    /// After `done` passes, each of which takes `seconds` of wall time. `None` where there is no error.
+    pub fn after(done: f64, accuracy: &Accuracy, seconds: f64) -> Option<Next> {
+        let error = 0.5 * accuracy.error_after(done);
         let passes = accuracy.passes_for(error);
         let by_effect = accuracy.by_effect.iter().map(|part| {
             let alone = Accuracy {
@@ -35,22 +35,16 @@ impl Next {
                 by_effect: vec![part.clone()],
                 ..accuracy.clone()
             };
-            let factor = alone.passes_for(0.5 * alone.error) / f64::from(accuracy.passes);
-            Factor { effect: part.effect, passes: factor }
+            Factor { effect: part.effect, passes: alone.passes_for(0.5 * alone.error_after(done)) / done }
         });
-        let more = passes - f64::from(accuracy.passes);
         let by_effect = by_effect.collect();
-        (error > 0.0 && passes.is_finite()).then_some(Next {
-            error,
-            passes,
-            seconds: more * seconds,
-            by_effect,
-        })
+        let seconds = (passes - done) * seconds;
+        (error > 0.0 && passes.is_finite()).then_some(Next { error, passes, seconds, by_effect })
     }
 }
 
 /// What no pass of this plan shows of its error, in words.
-pub(super) fn not_seen(plan: &Plan) -> Vec<String> {
+pub fn not_seen(plan: &Plan) -> Vec<String> {
     let mut list = Vec::new();
     let samples = match plan.antialiasing {
         Antialiasing::Progressive => None,

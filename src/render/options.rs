@@ -29,6 +29,9 @@ pub struct Options {
     pub tile: u32,
     /// Rare events above their healthy share are an error.
     pub strict: bool,
+    /// Keeps no statistics of the error, which then is unknown: to measure what these cost.
+    #[doc(hidden)]
+    pub untold: bool,
 }
 
 impl Default for Options {
@@ -43,6 +46,7 @@ impl Default for Options {
             aovs: Vec::new(),
             tile: 32,
             strict: false,
+            untold: false,
         }
     }
 }
@@ -149,7 +153,7 @@ impl Options {
             variance: any(&[Aov::Variance, Aov::Noise]),
             bias: any(&[Aov::Bias]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
-            probes: Some(Probes::of(width, height)),
+            probes: (!self.untold).then(|| Probes::of(width, height)),
         }
     }
 

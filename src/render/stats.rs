@@ -106,7 +106,7 @@ impl Stats {
             passes,
             next: accuracy
                 .as_ref()
-                .and_then(|accuracy| Next::of(accuracy, traced / f64::from(passes.max(1)))),
+                .and_then(|a| Next::after(f64::from(a.passes), a, traced / f64::from(passes.max(1)))),
             accuracy,
             not_seen,
             samples: health.samples,

@@ -34,6 +34,12 @@ pub const CASES: &[super::Case] = &[
         &["2:49: warning: camera.up: `up` is parallel to the view, another one is chosen"],
     ),
     (
+        "camera: (eye: (0, 0, 5), target: (0, 0, 0), focus_m: 3)",
+        &[
+            "2:54: warning: camera.focus_m: `focus_m` does nothing where `aperture_m` is 0: a pinhole shows everything sharply",
+        ],
+    ),
+    (
         "camera: (eye: (NaN, 0, 5), target: (0, inf, 1e999))",
         &[
             "2:16: error: camera.eye.0: a finite number is expected, this is not a number",

@@ -112,6 +112,24 @@ fn caustics_need_something_that_can_show_them() {
         said,
         "caustics: off: nothing can show them: every reachable material only reflects, transmits or is black"
     );
+    // Nor shadows, nor light from wall to wall.
+    let indirect = black.replace("image:", "indirect: true, image:");
+    for (effect, off) in [
+        (Effect::Shadows, "shadows: off: nothing can show them: every"),
+        (
+            Effect::Indirect,
+            "indirect: off: the scene asks for it (`indirect: true`), but nothing can show it: every",
+        ),
+    ] {
+        let said = decision(&own_plan(&indirect), effect).to_string();
+        assert!(said.starts_with(off), "{said}");
+    }
+    assert_eq!(own_plan(&indirect).bounces, 0);
+    let dark = scene("indirect: 2,", "", "", BALL);
+    assert_eq!(
+        decision(&own_plan(&dark), Effect::Indirect).to_string(),
+        "indirect: off: the scene asks for 2 bounces, but it has no light"
+    );
     // One that is partly matt can.
     let partly = text.replace(r#""matt": (diffuse: 0.6)"#, r#""matt": (diffuse: 0.6, reflection: 0.9)"#);
     assert!(own_plan(&partly).is_on(Effect::Caustics));

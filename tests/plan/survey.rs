@@ -85,7 +85,10 @@ fn media_that_overlap_are_told_in_pairs() {
         )
     };
     let apart = survey("", LAMP, &format!("{}, {}", at(0.0), at(2.0)));
-    assert_eq!(line(&apart, Effect::NestedMedia), "nested media: off: no two objects that transmit overlap");
+    assert_eq!(
+        line(&apart, Effect::NestedMedia),
+        "nested media: off: no two objects that transmit overlap, not even by their bounds"
+    );
     let touching = survey("", LAMP, &format!("{}, {}, {}", at(0.0), at(0.5), at(1.2)));
     assert_eq!(
         touching.nested.pairs,
@@ -93,7 +96,7 @@ fn media_that_overlap_are_told_in_pairs() {
     );
     assert_eq!(
         line(&touching, Effect::NestedMedia),
-        "nested media: on: `box0` and `box0.5` overlap; and 1 more pair"
+        "nested media: on: the bounds of `box0` and `box0.5` overlap; and 1 more pair"
     );
 }
 
