@@ -84,7 +84,7 @@ def main():
             print("  %4d passes  true %7.3f %%  stated %7.3f %% (bias %6.3f %%)  held %2d of %d" % (
                 passes, 100 * true, 100 * said, 100 * bias, within, len(rows)), flush=True)
         for seed in range(max(SEEDS // 4, 1)):
-            render(scene, image, *size, "--error", str(TARGET), "--seed", str(seed))
+            render(scene, image, *size, "--error", str(TARGET), "--passes", "100000", "--seed", str(seed))
             ended.append(error(image, truth))
         for seconds in (1, 3):
             began = time.perf_counter()

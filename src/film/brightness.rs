@@ -8,7 +8,7 @@ pub(super) struct Brightness {
     pub values: Vec<f32>,
 }
 
-/// Halves of the passes that are this far apart do not show the same thing.
+/// How many times brighter one pass may make a pixel than all the others do.
 const FAR: f64 = 2.0;
 
 impl Brightness {
@@ -17,15 +17,14 @@ impl Brightness {
         self.values.iter().map(|v| f64::from(*v)).sum::<f64>() / (self.values.len() as f64).max(1.0)
     }
 
-    /// What a pixel's mean is to be multiplied by to be nearer to the truth. Where one half of its passes is
-    /// much brighter than the other and none of its neighbours is as bright as their mean, a rare bright path is
-    /// in it, and the brightest neighbour is.
-    pub fn trusted(&self, x: u32, y: u32, halves: [f64; 2]) -> f64 {
-        let [a, b] = halves;
-        if a.max(b) <= FAR * a.min(b) {
+    /// What a pixel's mean is to be multiplied by to be nearer to the truth. Where a single pass has made more
+    /// than half of it (`others`: the mean without that pass) and none of its neighbours is as bright, that pass
+    /// has found a rare bright path, and the brightest neighbour is nearer.
+    pub fn trusted(&self, x: u32, y: u32, others: f64) -> f64 {
+        let own = f64::from(self.at(x, y));
+        if own <= FAR * others {
             return 1.0;
         }
-        let own = f64::from(self.at(x, y));
         let near = |centre: u32, end: u32| centre.saturating_sub(1)..(centre + 2).min(end);
         let brightest = near(y, self.height)
             .flat_map(|v| near(x, self.width).map(move |u| (u, v)))
@@ -45,15 +44,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lone_pixels_that_half_of_the_passes_deny_are_not_trusted() {
+    fn lone_pixels_that_a_single_pass_has_made_are_not_trusted() {
         let mut values = vec![1.0; 25];
         values[12] = 50.0;
         let picture = Brightness { width: 5, height: 5, values: values.clone() };
-        assert_eq!(picture.trusted(2, 2, [99.0, 1.0]), 0.02);
-        assert_eq!(picture.trusted(2, 2, [52.0, 48.0]), 1.0);
-        assert_eq!(picture.trusted(0, 0, [2.0, 0.0]), 1.0);
+        assert_eq!(picture.trusted(2, 2, 1.0), 0.02);
+        assert_eq!(picture.trusted(2, 2, 48.0), 1.0);
+        assert_eq!(picture.trusted(0, 0, 0.0), 1.0);
         // At the edge of a lamp.
         values[13] = 60.0;
-        assert_eq!(Brightness { values, ..picture }.trusted(2, 2, [99.0, 1.0]), 1.0);
+        assert_eq!(Brightness { values, ..picture }.trusted(2, 2, 1.0), 1.0);
     }
 }

@@ -82,8 +82,8 @@ pub struct Probe {
     /// the part was closed.
     first: Vec3,
     closed: Vec3,
-    /// Of all light: the luminance of even passes.
-    even: f32,
+    /// Of all light: the luminance of the brightest pass.
+    brightest: f32,
     /// Sums of the estimated bias of caustic and indirect light, of passes that looked at it; of the first
     /// part, and of what came later.
     bias: [[Vec3; 2]; 2],
@@ -100,9 +100,7 @@ impl Probe {
         if self.passes.is_power_of_two() {
             self.close();
         }
-        if self.passes.is_multiple_of(2) {
-            self.even += value.radiance.dot(LUMINANCE) as f32;
-        }
+        self.brightest = self.brightest.max(value.radiance.dot(LUMINANCE) as f32);
         let rest = value.radiance - value.caustic - value.indirect;
         let n = f64::from(self.passes);
         for (i, light) in [rest, value.caustic, value.indirect].into_iter().enumerate() {
@@ -145,12 +143,10 @@ impl Probe {
         Kind::ALL.into_iter().map(|kind| self.mean(kind)).sum()
     }
 
-    /// Mean luminance of the even and of the odd passes.
-    pub fn halves(&self) -> [f64; 2] {
-        let even = f64::from(self.passes.div_ceil(2).max(1));
-        let odd = f64::from((self.passes / 2).max(1));
+    /// Mean luminance without the brightest pass.
+    pub fn others(&self) -> f64 {
         let sum = self.mean_of_all().dot(LUMINANCE) * f64::from(self.passes);
-        [f64::from(self.even) / even, (sum - f64::from(self.even)) / odd]
+        (sum - f64::from(self.brightest)) / f64::from(self.passes.max(2) - 1)
     }
 
     /// The variance of a kind of light from pass to pass; 0 of one pass.

@@ -73,7 +73,7 @@ struct PhotonSums {
 #[derive(Clone, Copy, Debug, Default)]
 struct Spread {
     squares: Vec3,
-    even: f32,
+    brightest: f32,
 }
 
 /// A pixel's mean, and how far it may be off.
@@ -85,8 +85,8 @@ pub struct Measured {
     pub mean: DVec3,
     /// Of one pass.
     pub variance: DVec3,
-    /// Mean luminance of the even and of the odd passes.
-    pub halves: [f64; 2],
+    /// Mean luminance without the brightest pass.
+    pub others: f64,
 }
 
 /// A rectangle of pixels with its sums. Layers that are not kept take no memory.
@@ -104,7 +104,7 @@ pub struct Tile {
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
     photons: Vec<PhotonSums>,
-    /// For the picture's error: Σ (x − mean)² by channel, and the luminance of even passes.
+    /// For the picture's error: Σ (x − mean)² by channel, and the luminance of the brightest pass.
     spread: Vec<Spread>,
     /// Sums of the estimated bias, and of the passes that looked at it.
     bias: Vec<(DVec3, u32)>,
@@ -170,9 +170,7 @@ impl Tile {
         }
         if let Some(spread) = self.spread.get_mut(i) {
             spread.squares += square.as_vec3();
-            if self.passes[i].is_multiple_of(2) {
-                spread.even += value.radiance.dot(LUMINANCE) as f32;
-            }
+            spread.brightest = spread.brightest.max(value.radiance.dot(LUMINANCE) as f32);
         }
         self.radiance[i] += value.radiance;
         self.passes[i] += 1;
@@ -267,14 +265,12 @@ impl Tile {
     pub fn measured(&self) -> impl Iterator<Item = Measured> {
         let of = |(i, spread): (usize, &Spread)| {
             let passes = self.passes[i];
-            let even = f64::from(passes.div_ceil(2));
             let mean = self.radiance[i] / f64::from(passes);
-            let sum = self.radiance[i].dot(LUMINANCE);
-            let halves =
-                [f64::from(spread.even) / even, (sum - f64::from(spread.even)) / (f64::from(passes) - even)];
+            let others =
+                (self.radiance[i].dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
             let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
             let (x, y) = (self.x + i as u32 % self.width, self.y + i as u32 / self.width);
-            Measured { x, y, passes, mean, variance, halves }
+            Measured { x, y, passes, mean, variance, others }
         };
         self.spread.iter().enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
     }

@@ -6,7 +6,7 @@ use crate::trace::Measured;
 
 /// A pixel's squared error, relative and averaged over channels, were its passes independent.
 pub(super) fn relative(pixel: &Measured, picture: &Brightness, floor: f64) -> f64 {
-    let weight = weight(pixel.mean * picture.trusted(pixel.x, pixel.y, pixel.halves), floor);
+    let weight = weight(pixel.mean * picture.trusted(pixel.x, pixel.y, pixel.others), floor);
     (pixel.variance * weight).element_sum() / (3.0 * f64::from(pixel.passes))
 }
 

@@ -34,7 +34,7 @@ pub(super) struct Sums {
 
 impl Sums {
     pub fn add(&mut self, probe: &Probe, picture: &Brightness, floor: f64) {
-        let trusted = picture.trusted(probe.x, probe.y, probe.halves());
+        let trusted = picture.trusted(probe.x, probe.y, probe.others());
         let weight = weight(probe.mean_of_all() * trusted, floor);
         let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
         self.count += 1.0;
