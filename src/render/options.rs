@@ -29,6 +29,8 @@ pub struct Options {
     pub tile: u32,
     /// Rare events above their healthy share are an error.
     pub strict: bool,
+    /// The most bytes that the image may take; without it, what the machine has.
+    pub memory: Option<u64>,
 }
 
 impl Default for Options {
@@ -43,6 +45,7 @@ impl Default for Options {
             aovs: Vec::new(),
             tile: 32,
             strict: false,
+            memory: None,
         }
     }
 }
@@ -217,17 +220,21 @@ pub enum RenderError {
     Invalid(String),
     #[error("{0}")]
     Io(String),
+    /// A limit on what a render may take.
+    #[error("{0}")]
+    TooLarge(String),
     #[error("{0}")]
     Failed(String),
 }
 
 impl RenderError {
-    /// 1 render failed, 2 scene invalid, 3 input unreadable.
+    /// 1 render failed, 2 scene invalid, 3 input unreadable, 5 a limit refused.
     pub fn exit_code(&self) -> u8 {
         match self {
             RenderError::Failed(_) => 1,
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
+            RenderError::TooLarge(_) => 5,
         }
     }
 }
