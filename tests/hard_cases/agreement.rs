@@ -51,7 +51,7 @@ const LAMP: &str = r#""lamp": (diffuse: 0, emission: 5)"#;
 fn both(lights: &str, objects: &str) -> [f64; 3] {
     let at = [0.4, 0.2];
     let scene = lab(LAMP, lights, &format!("{FLOOR}{objects}"));
-    let passes = scene.passes(Store::Direct, Aim::Scene, 24, sized(40_000, 400_000));
+    let passes = scene.passes(Store::Direct, Aim::Scene, 24, sized(40_000, 160_000));
     let found = power(&passes, |p| on_patch(&scene, p, at, 0.5));
     // From straight above and below all lamps; a ray a pixel has its shadow rays.
     let text = format!(
@@ -70,8 +70,11 @@ fn h35_photons_agree_with_shadow_rays() {
         let lights = LIGHTS.map(|(name, light)| (name, light.to_owned(), String::new()));
         for (name, light, object) in lights.into_iter().chain(objects) {
             let [photons, error, rays] = both(&light, &object);
-            let what = format!("{name}: irradiance by photons over that by shadow rays (3σ, at most 1 %)");
-            row.is(&what, photons / rays, 1.0, (3.0 * error / rays + 1e-3).min(0.01));
+            let what = format!(
+                "{name}: irradiance by photons over that by shadow rays (3σ, at most {} %)",
+                sized(2, 1)
+            );
+            row.is(&what, photons / rays, 1.0, (3.0 * error / rays + 1e-3).min(sized(0.02, 0.01)));
         }
         pane(row);
     });
@@ -133,7 +136,7 @@ fn h36_scale_of_the_scene() {
 #[test]
 fn h50_caustic_seen_in_glass() {
     row("H50", |row| {
-        let n = sized(10, 40);
+        let n = sized(10, 24);
         let direct = seen::blocks(&seen::scene(seen::FROM_ABOVE, "", n), false);
         // The mirror folds the view at a height of 3 m, by 90°.
         let mirror = r#", (shape: quad(size: (0.8, 0.8)), material: "mirror", transform: [rotate(axis: (1, 0, 0), deg: 135), translate((0, 3, 0))])"#;

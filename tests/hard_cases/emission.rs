@@ -27,7 +27,7 @@ fn s02_photon_directions() {
             }
         }
         assert_eq!(corners.len(), 12, "an icosahedron has twelve corners");
-        let photons = sized(400_000, 8_000_000);
+        let photons = sized(400_000, 4_000_000);
         let pass = &scene.passes(Store::Direct, Aim::Scene, 1, photons)[0];
         // Within 10° of each, by share of the solid angle.
         let near = libm::cos(10f64.to_radians());
@@ -44,7 +44,7 @@ fn s02_photon_directions() {
             sized(0.02, 5e-3),
         );
         row.is("density towards the corners over an even one", corner, 1.0, sized(0.02, 5e-3));
-        for n in [sized(20_000, 20_000), sized(320_000, 10_000_000)] {
+        for n in [sized(20_000, 20_000), sized(320_000, 4_000_000)] {
             let Judged { ratio, .. } = judge(&scene, n, |_| 3.0);
             // Of independent photons: ± 3σ of n/320 each, and as much again.
             let bound = 1.0 + 6.0 * (320.0 / n as f64).sqrt() + 6.0 * (320.0 / n as f64).sqrt();

@@ -124,7 +124,7 @@ const INTERSECTION: &[Row] = &[
         "H6",
         "h06_false_hits",
         "rays nearly parallel to a needle of a triangle hit where nothing is",
-        "a determinant with an error bound; what cannot be told from zero misses",
+        "where point on ray and point on triangle disagree, the test is done again in double precision",
     ),
     row(
         "H7",
@@ -136,13 +136,13 @@ const INTERSECTION: &[Row] = &[
         "H8",
         "h08_rays_in_faces",
         "an axis-parallel ray that lies in a box's face gives 0·∞ in the slab test",
-        "parallel axes are told apart by comparisons",
+        "the reciprocal is kept finite where a box is entered; minimum and maximum ignore what is no number",
     ),
     row(
         "H9",
         "h09_negative_zero",
         "a component −0 takes the other side of every comparison with 0",
-        "signs from the reciprocal",
+        "the sign bit decides, as it does for the reciprocal",
     ),
     row(
         "H10",
