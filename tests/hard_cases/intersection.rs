@@ -28,9 +28,12 @@ fn leave(shape: &Shape, rays: u32, item: u64) -> [u64; 3] {
             counts[0] += 1;
             counts[1] += u64::from(shape.nearest(&leaving, 0.0, f64::INFINITY).is_some());
         }
-        // And into it, steeply: out again on some other side.
+        // And into it, steeply: out again on some other side, unless it is so thin or so small for its distance
+        // from the origin that its faces are no further apart than points are known.
         let inwards = placement.local_ray(&Ray::leaving(p, error, n, -n));
-        let thick = placement.stretch() < 3.0 * placement.det().abs().cbrt();
+        let (min, max) = shape.bounds();
+        let thick = placement.stretch() < 3.0 * placement.det().abs().cbrt()
+            && error < 1e-6 * placement.scale() * (max - min).min_element();
         counts[2] += u64::from(thick && shape.nearest(&inwards, 0.0, f64::INFINITY).is_none());
     }
     counts

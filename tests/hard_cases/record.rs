@@ -107,14 +107,14 @@ impl Record {
 
     /// |found − expected| ≤ within.
     pub fn is(&mut self, asserted: &str, found: f64, expected: f64, within: f64) {
-        let bound = format!("{} ± {}", figure(expected), figure(within));
+        let bound = format!("{} ± {}", near(expected, expected, within), figure(within));
         self.add(asserted, near(found, expected, within), bound, (found - expected).abs() <= within);
     }
 
     /// |found − expected| ≤ share·|expected|.
     pub fn is_close(&mut self, asserted: &str, found: f64, expected: f64, share: f64) {
         let within = share * expected.abs();
-        let bound = format!("{} ± {} %", figure(expected), figure(100.0 * share));
+        let bound = format!("{} ± {} %", near(expected, expected, within), figure(100.0 * share));
         self.add(asserted, near(found, expected, within), bound, (found - expected).abs() <= within);
     }
 
@@ -165,7 +165,7 @@ impl Record {
 fn near(found: f64, expected: f64, within: f64) -> String {
     let digits = (expected.abs().max(f64::MIN_POSITIVE) / within.max(f64::MIN_POSITIVE)).log10();
     if (1.0..14.0).contains(&digits) && (1e-3..1e6).contains(&expected.abs()) {
-        let decimals = 2.0 - within.log10();
+        let decimals = (1.0 - within.log10()).floor();
         format!("{found:.*}", decimals.clamp(0.0, 15.0) as usize)
     } else {
         figure(found)
