@@ -9,7 +9,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names test lint bench yardstick honesty study assets schema install clean help FORCE
+.PHONY: all build renders images names test hard lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -89,6 +89,18 @@ $(OUT)/%.png: $(OUT)/%.exr
 ## test: build and run every test
 test:
 	$(CARGO) test --release --locked
+
+# Where the rows of the hard cases are gathered.
+HARD := $(or $(CARGO_TARGET_DIR),target)/hard-cases
+
+## hard: every hard case at full size, and docs/hard-cases.md from what was measured; takes a while
+hard:
+	@rm -rf '$(HARD)' && mkdir -p '$(HARD)'
+	-HARD_CASES=full HARD_CASES_OUT='$(abspath $(HARD))' \
+	    $(CARGO) test --release --locked --test all -- hard_cases:: --test-threads=2 \
+	    --skip table:: --skip record::
+	@HARD_CASES_OUT='$(abspath $(HARD))' \
+	    $(CARGO) test --release --locked --test all -- --ignored --exact hard_cases::table::write_the_page
 
 ## lint: formatting and clippy, without a warning
 lint:

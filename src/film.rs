@@ -86,37 +86,3 @@ impl Film {
         self.tiles.iter().map(Tile::memory_bytes).sum()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::DVec3;
-    use crate::trace::PixelValue;
-
-    fn one_pixel(values: impl IntoIterator<Item = f64>) -> Film {
-        let mut film = Film::new(1, 1, 1, Layers { variance: true, ..Layers::default() });
-        for v in values {
-            let value = PixelValue { radiance: DVec3::splat(v), samples: 1, ..PixelValue::default() };
-            film.tiles[0].add(0, 0, &value);
-        }
-        film
-    }
-
-    /// H41: a large mean does not eat a small variance. Of {1e8, 1e8 + 1} repeated, s² = n/(n−1)/4.
-    #[test]
-    fn small_variance_survives_a_large_mean() {
-        let n = 1000.0;
-        let film = one_pixel((0..1000).map(|i| 1e8 + f64::from(i % 2)));
-        let variance = film.channels(Layer::Variance)[0][0];
-        let expected = 0.25 * n / (n - 1.0) / n;
-        assert!((f64::from(variance) / expected - 1.0).abs() < 1e-6, "{variance}");
-    }
-
-    /// H40: a million passes of 0.1 have the mean 0.1.
-    #[test]
-    fn a_million_passes_keep_their_mean() {
-        let film = one_pixel(std::iter::repeat_n(0.1, 1_000_000));
-        assert!((film.tiles[0].value(0, 0, Layer::Radiance, 1.0).x - 0.1).abs() < 1e-10);
-        assert_eq!(film.channels(Layer::Radiance)[0][0], 0.1);
-    }
-}

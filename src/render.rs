@@ -9,6 +9,7 @@ mod photons;
 mod planned;
 mod prepare;
 mod prices;
+mod room;
 mod stats;
 mod stop;
 

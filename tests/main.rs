@@ -9,6 +9,8 @@ mod command_line;
 mod diff;
 mod forecast;
 mod guide;
+#[path = "hard_cases/mod.rs"]
+mod hard_cases;
 mod layers;
 mod makefile;
 #[path = "messages/main.rs"]

@@ -155,6 +155,9 @@ pub struct Work {
     /// reflection, refraction, caustic, indirect, photons, photon_density, variance, noise, bias, edges
     #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
     pub aov: Vec<Aov>,
+    /// The most memory that the image may take, such as 512MiB or 4GiB; what the machine has if not given
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub memory: Option<u64>,
 }
 
 impl Work {
@@ -173,6 +176,7 @@ impl Work {
             until: Until { seconds: self.time, error: self.error },
             overrides: self.effects.overrides(),
             aovs,
+            memory: self.memory,
             ..Options::default()
         }
     }
@@ -228,6 +232,17 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     let value =
         number.trim().parse::<f64>().map_err(|_| format!("`{text}` is no time: 90, 60s, 5min, 1h"))?;
     positive(value * factor)
+}
+
+/// A number of bytes with its unit.
+fn bytes(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let units = [("KiB", 1u64 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30), ("TiB", 1 << 40), ("B", 1)];
+    let found = units.iter().find_map(|(unit, size)| Some((text.strip_suffix(unit)?, *size)));
+    let (number, size) = found.unwrap_or((text, 1));
+    let number = number.trim().parse::<u64>().ok().filter(|n| *n > 0);
+    let bytes = number.and_then(|n| n.checked_mul(size));
+    bytes.ok_or_else(|| format!("`{text}` is no size: 512MiB, 4GiB, 1000000"))
 }
 
 /// A share, or so many per cent.

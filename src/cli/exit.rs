@@ -12,6 +12,9 @@ pub const UNREADABLE: u8 = 3;
 /// A file can't be written.
 pub const NOT_WRITABLE: u8 = 4;
 
+/// A limit on what a render may take.
+pub const REFUSED: u8 = 5;
+
 /// Why the program ends with a code other than 0; an empty message if all has been said.
 #[derive(Debug)]
 pub struct Failure {
@@ -43,6 +46,7 @@ impl From<RenderError> for Failure {
         let code = match &error {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => USAGE,
             RenderError::Io(_) => UNREADABLE,
+            RenderError::TooLarge(_) => REFUSED,
             RenderError::Failed(_) => FAILED,
         };
         Failure::new(code, error.to_string())

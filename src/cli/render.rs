@@ -89,7 +89,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
 
 /// Building stops at the first file that it cannot use: all that is wrong with them is told instead.
 pub fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Failure {
-    if matches!(error, RenderError::Failed(_)) {
+    if matches!(error, RenderError::Failed(_) | RenderError::TooLarge(_)) {
         return Failure::from(error);
     }
     let report = files(loaded);

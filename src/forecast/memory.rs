@@ -30,6 +30,14 @@ pub fn held() -> Option<Held> {
     Some(Held { now: bytes("VmRSS:")?, most: bytes("VmHWM:")? })
 }
 
+/// Bytes that the machine has, from Linux's `/proc`; `None` elsewhere.
+pub fn machine() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib * 1024)
+}
+
 impl Held {
     /// The most that will have been held in the end.
     pub fn peak(&self, later: &Later) -> u64 {

@@ -63,26 +63,3 @@ impl Kernel {
         1.0 / (shape * PI * radius * radius)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// ∫ w 2πd dd by the midpoint rule, whose error is of order 1/n².
-    #[test]
-    fn every_kernel_integrates_to_one_over_the_disc() {
-        let kernels = [1.0, 1.1, 3.0].map(|kappa| Kernel::Cone { kappa });
-        for kernel in [Kernel::Disc, Kernel::Epanechnikov].into_iter().chain(kernels) {
-            for radius in [1e-3f32, 0.7, 250.0] {
-                let n = 20_000;
-                let ring = |i: i32| {
-                    let t = (f64::from(i) + 0.5) / f64::from(n);
-                    let weight = f64::from(kernel.weight((t * t) as f32, radius));
-                    weight * std::f64::consts::TAU * t * f64::from(radius).powi(2) / f64::from(n)
-                };
-                let sum: f64 = (0..n).map(ring).sum();
-                assert!((sum - 1.0).abs() < 1e-6, "{kernel:?} at {radius}: {sum}");
-            }
-        }
-    }
-}

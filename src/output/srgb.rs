@@ -31,20 +31,4 @@ mod tests {
             assert_eq!(quantise(encode(decode(f64::from(value) / 65535.0)), u16::MAX), value);
         }
     }
-
-    #[test]
-    fn the_curve_has_the_standards_values() {
-        assert!(encode(0.0) == 0.0 && (encode(1.0) - 1.0).abs() < 1e-15);
-        assert!((encode(0.001) - 0.01292).abs() < 1e-16);
-        // 18 % grey and the half of white, to the precision that tables print
-        assert!((encode(0.18) - 0.461_356_129_500_442).abs() < 1e-14);
-        assert!((encode(0.5) - 0.735_356_983_052_449_7).abs() < 1e-14);
-        // the standard's constants meet at the knee to 3e-8
-        assert!((encode(0.003_130_8) - encode(0.003_130_800_1)).abs() < 1e-7);
-    }
-
-    #[test]
-    fn halves_go_to_the_even_neighbour() {
-        assert_eq!([0.5, 1.5, 2.5, 3.5].map(|v| quantise(v / 4.0, 4)), [0, 2, 2, 4]);
-    }
 }

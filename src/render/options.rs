@@ -32,6 +32,8 @@ pub struct Options {
     /// Keeps no statistics of the error, which then is unknown: to measure what these cost.
     #[doc(hidden)]
     pub untold: bool,
+    /// The most bytes that the image may take; without it, what the machine has.
+    pub memory: Option<u64>,
 }
 
 impl Default for Options {
@@ -47,6 +49,7 @@ impl Default for Options {
             tile: 32,
             strict: false,
             untold: false,
+            memory: None,
         }
     }
 }
@@ -221,17 +224,21 @@ pub enum RenderError {
     Invalid(String),
     #[error("{0}")]
     Io(String),
+    /// A limit on what a render may take.
+    #[error("{0}")]
+    TooLarge(String),
     #[error("{0}")]
     Failed(String),
 }
 
 impl RenderError {
-    /// 1 render failed, 2 scene invalid, 3 input unreadable.
+    /// 1 render failed, 2 scene invalid, 3 input unreadable, 5 a limit refused.
     pub fn exit_code(&self) -> u8 {
         match self {
             RenderError::Failed(_) => 1,
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
+            RenderError::TooLarge(_) => 5,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::photons::{PassMaps, PassStages};
-use super::{Options, Planned, Progress, RenderError};
+use super::{Options, Planned, Progress, RenderError, room};
 use crate::build::{self, Built, World};
 use crate::description::Loaded;
 use crate::forecast::{Cost, Pace, PhotonSeconds};
@@ -35,6 +35,7 @@ impl Prepared {
     ) -> Result<(Prepared, PassMaps), RenderError> {
         let plan = Plan::new(&loaded.scene, &options.request())?;
         options.check(&plan)?;
+        room::check(options, loaded.scene.image.width, loaded.scene.image.height)?;
         clock.lap("plan");
 
         progress.start("build", 1, "scene");

@@ -101,7 +101,7 @@ impl Tracer<'_> {
     }
 
     /// What the estimate is multiplied by where the surface ends within the disc, so that photons cannot
-    /// lie on all of it (H32): the inverse of the kernel's integral over the surface. As many places as are
+    /// lie on all of it: the inverse of the kernel's integral over the surface. As many places as are
     /// drawn from the kernel until one lies on the surface are that inverse in the mean, which leaves no bias.
     /// Looked for where the shape does not say that its face goes on for the radius.
     fn edge_correction(

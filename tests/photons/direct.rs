@@ -1,4 +1,4 @@
-//! Photons agree with direct light (H35): stored where they arrive first, their density on a floor is
+//! Photons agree with direct light: stored where they arrive first, their density on a floor is
 //! the irradiance, in closed form or as midpoint sums over the lamp give it.
 
 use super::lab::{Lab, lab, on_patch, power};

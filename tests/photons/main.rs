@@ -3,13 +3,13 @@
 //! Everything goes the way a user's scene goes as far as the photons. Seeds are fixed.
 
 mod aimed;
-mod bent;
+pub(crate) mod bent;
 mod direct;
-mod directions;
+pub(crate) mod directions;
 mod distant;
 mod emitters;
 mod glass;
 mod indirect;
-mod lab;
-mod ledger;
+pub(crate) mod lab;
+pub(crate) mod ledger;
 mod many;

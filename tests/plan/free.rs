@@ -1,6 +1,6 @@
 //! What is off is free: its stages do not run, its files are not read, its memory is not held.
 
-use super::lab::{BALL, LAMP, own_plan, render, scene, shot, without};
+use super::lab::{BALL, LAMP, render, scene, shot, without};
 use crate::render::shot::Picture;
 use terrarium::plan::{Effect, Overrides};
 
@@ -74,33 +74,4 @@ fn caustics_that_are_left_out_send_no_photons() {
     let whole = render(&text, &Overrides::default()).rendered.stats;
     let stored = |stats: &terrarium::render::Stats| stats.photons.indirect_photons.as_ref().map(|p| p.stored);
     assert!(stored(&stats).is_some_and(|n| n > 0) && stored(&stats) == stored(&whole));
-}
-
-/// H14: the medium that is around is not there.
-#[test]
-fn a_ball_of_the_index_around_it_is_invisible() {
-    let air = r#""air": (transmission: 1, ior: 1)"#;
-    let ball = r#"(shape: sphere(radius: 0.5, center: (0, 0.6, 0)), material: "air")"#;
-    let (with, none) = (scene("", air, LAMP, ball), scene("", air, LAMP, ""));
-    assert!(!own_plan(&with).is_on(Effect::Caustics));
-    let with = render(&with, &Overrides::default());
-    assert!(with.rendered.stats.photons.photons.is_none());
-    assert!(with.bits() == render(&none, &Overrides::default()).bits());
-
-    // Water in water: what the camera sees through it is the same to rounding.
-    let water =
-        r#""water": (transmission: 1, ior: 1.333), "drop": (transmission: 1, ior: 1.333, priority: -1)"#;
-    let pool =
-        r#"(shape: box(size: (1.6, 1, 1.6)), material: "water", transform: [translate((0, 0.51, 0))])"#;
-    let drop = r#", (shape: sphere(radius: 0.3, center: (0, 0.5, 0)), material: "drop")"#;
-    let text = |objects: &str| scene("antialiasing: none, photons: off,", water, LAMP, objects);
-    let with = render(&text(&format!("{pool}{drop}")), &Overrides::default());
-    let none = render(&text(pool), &Overrides::default());
-    let brightest = none.grey().into_iter().fold(0.0, f64::max);
-    for (a, b) in with.grey().iter().zip(none.grey()) {
-        // Branches lighter than 1/256 survive by chance, and not by the same.
-        assert!((a - b).abs() <= 1e-5 * b + brightest / 128.0, "{a} and {b}");
-    }
-    let same = with.grey().iter().zip(none.grey()).filter(|(a, b)| (*a - b).abs() <= 1e-5 * b).count();
-    assert!(same as f64 > 0.9 * with.grey().len() as f64, "{same}");
 }

@@ -5,6 +5,6 @@ mod command_line;
 mod decisions;
 mod forced;
 mod free;
-mod lab;
+pub(crate) mod lab;
 mod overrides;
 mod survey;

@@ -71,66 +71,6 @@ fn the_edges_layer_is_dark_away_from_edges() {
     assert!(near > 50 && seen == near, "{seen} of {near}");
 }
 
-/// H45, S8: a ball of 0.3 pixels in the middle of a pixel is seen.
-#[test]
-fn a_ball_smaller_than_a_pixel_is_seen() {
-    let half = f64::to_radians(15.0).tan();
-    // 31 × 31: the centre of pixel (15, 15) is the middle of the image.
-    let pixel = 2.0 * half * 5.0 / 31.0;
-    let scene = |antialiasing: &str| {
-        shot(format!(
-            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 31, height: 31), antialiasing: {antialiasing},
-            materials: {{ "glow": (emission: 1) }}, objects: [(shape: sphere(radius: {}), material: "glow")])"#,
-            0.15 * pixel
-        ))
-        .render()
-    };
-    let expected = std::f64::consts::PI * 0.15f64.powi(2);
-    let adaptive = scene("adaptive(threshold: 0.05, depth: 5)");
-    assert_close(adaptive.at(15, 15), expected, 0.1);
-    assert_close(adaptive.mean(), expected / 961.0, 0.1);
-}
-
-/// H45, S8: a hard edge from 0 to 1e6 ends, within 4^depth cells a pixel, and whatever the exposure.
-#[test]
-fn hard_bright_edges_are_bounded_and_exposure_does_not_matter() {
-    let scene = |radiance: f64| {
-        shot(format!(
-            r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32), antialiasing: adaptive(threshold: 0, depth: 4),
-            materials: {{ "glow": (emission: {radiance:e}) }}, objects: [(shape: sphere(), material: "glow")])"#
-        ))
-        .aovs(&[Aov::Samples])
-        .render()
-    };
-    let (bright, dim) = (scene(1e6), scene(1e-6));
-    for picture in [&bright, &dim] {
-        assert!(picture.channel("samples", "Y").iter().all(|&n| n <= 256.0));
-    }
-    assert_eq!(bright.rendered.stats.samples, dim.rendered.stats.samples);
-    for (a, b) in bright.grey().into_iter().zip(dim.grey()) {
-        assert!((a * 1e-12 - b).abs() <= 1e-6 * b);
-    }
-    // The disk of the sphere's outline, in pixels.
-    let radius = (1.0f64 / 24.0).sqrt() / f64::to_radians(15.0).tan() * 16.0;
-    assert_close(bright.mean() * 1024.0 / 1e6, std::f64::consts::PI * radius * radius, 2e-3);
-}
-
-/// H45: a wire that covers 1 % of its pixels has that mean.
-#[test]
-fn a_thin_wire_keeps_its_coverage() {
-    let half = f64::to_radians(15.0).tan();
-    let width = 2.0 * half * 5.0 / 32.0 * 0.01;
-    let picture = shot(format!(
-        r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0), fov_deg: 30), image: (width: 32, height: 32),
-        materials: {{ "glow": (emission: 1) }},
-        objects: [(shape: box(size: ({width}, 9, 0.0001)), material: "glow", transform: [translate((0.01234, 0, 0))])])"#
-    ))
-    .passes(512)
-    .render();
-    // 32 pixels of 512 samples in 512 strata along x: no worse than independent ones, σ = 0.8 %.
-    assert_close(picture.mean() * 32.0, 0.01, 0.03);
-}
-
 /// Even surfaces are not divided, and cost one sample a pixel.
 #[test]
 fn an_even_picture_is_not_divided() {

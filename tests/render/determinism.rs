@@ -1,4 +1,4 @@
-//! H48: the same bits for any number of threads and any tile size, in either language.
+//! Seeds, layers, passes and languages: what changes the bits of a picture, and what does not.
 
 use super::meshes::folder;
 use super::shot::{Picture, Shot, assert_close, shot};
@@ -6,7 +6,7 @@ use std::path::Path;
 use terrarium::description::{Format, load_str, to_string};
 use terrarium::render::{Aov, Silent, render};
 
-fn scene(antialiasing: &str) -> Shot {
+pub(crate) fn scene(antialiasing: &str) -> Shot {
     shot(format!(
         r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0), aperture_m: 0.05), image: (width: 40, height: 20), antialiasing: {antialiasing},
         textures: {{ "tiles": checker(a: 0.8, b: 0.3, squares: (9, 9)), "stone": noise(a: 0.1, b: 0.8, size_m: 0.3) }},
@@ -17,41 +17,12 @@ fn scene(antialiasing: &str) -> Shot {
     ))
 }
 
-fn exr(picture: &Picture, folder: &Path) -> Vec<u8> {
+pub(crate) fn exr(picture: &Picture, folder: &Path) -> Vec<u8> {
     let path = folder.join("picture.exr");
     let mut file = std::io::Cursor::new(Vec::new());
     terrarium::output::exr::write(&mut file, &picture.rendered.image, &picture.rendered.provenance)
         .unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     file.into_inner()
-}
-
-#[test]
-fn threads_and_tiles_change_no_bit_and_no_byte() {
-    let dir = folder();
-    for antialiasing in ["progressive", "grid(2)", "adaptive(threshold: 0.05, depth: 3)"] {
-        let mut first = None;
-        for (threads, tile) in [(1, 32), (2, 7), (5, 64), (5, 1000)] {
-            let mut shot = scene(antialiasing).passes(3).aovs(&[
-                Aov::Albedo,
-                Aov::Normal,
-                Aov::Depth,
-                Aov::Position,
-                Aov::ObjectId,
-                Aov::Samples,
-                Aov::Direct,
-                Aov::Reflection,
-                Aov::Refraction,
-                Aov::Variance,
-            ]);
-            shot.options.threads = Some(threads);
-            shot.options.tile = tile;
-            let picture = shot.render();
-            let found = (picture.bits(), exr(&picture, dir.path()));
-            let first = first.get_or_insert_with(|| found.clone());
-            assert!(first.0 == found.0, "{antialiasing}: {threads} threads, tiles of {tile}: other pixels");
-            assert!(first.1 == found.1, "{antialiasing}: {threads} threads, tiles of {tile}: another file");
-        }
-    }
 }
 
 #[test]

@@ -103,16 +103,6 @@ fn the_variance_layer_predicts_the_spread_over_seeds() {
     assert!(actual > predicted * 0.02, "{actual} against {predicted}");
 }
 
-/// H41: the variance of a single pass is refused, not said to be 0.
-#[test]
-fn the_variance_of_one_pass_is_refused() {
-    let shot = shot(r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 4, height: 4))"#)
-        .passes(1)
-        .aovs(&[Aov::Variance]);
-    let error = shot.try_render().err().expect("an error");
-    assert_eq!(error.exit_code(), 2);
-}
-
 /// The first surface is what the camera sees, wherever a path goes on from there.
 #[test]
 fn bounces_change_nothing_of_the_first_surface() {

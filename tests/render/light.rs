@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 /// A white floor at y = 0 and an eye just above its origin, lower than all lights.
-fn floor(lights: &str, more: &str) -> String {
+pub(crate) fn floor(lights: &str, more: &str) -> String {
     format!(
         r#"(
     camera: (eye: (0.002, 0.005, 0.003), target: (0, 0, 0), fov_deg: 0.01),
@@ -21,7 +21,7 @@ fn floor(lights: &str, more: &str) -> String {
 }
 
 /// E at the origin over `passes` passes.
-fn irradiance(lights: &str, passes: u32) -> f64 {
+pub(crate) fn irradiance(lights: &str, passes: u32) -> f64 {
     shot(floor(lights, "")).passes(passes).render().mean() * PI
 }
 
@@ -73,85 +73,6 @@ fn directional_light_gives_its_irradiance_times_the_cosine() {
     let found = irradiance(r#""a": directional(direction: (3, -4, 0), irradiance: (5, 5, 5))"#, 1);
     assert_close(found, 5.0 * 0.8, 1e-6);
     assert_eq!(irradiance(r#""a": directional(direction: (3, 4, 0), irradiance: 5)"#, 1), 0.0);
-}
-
-/// S9, H27: E = π L (r/d)² cosθ for a sphere that is wholly above the horizon.
-#[test]
-fn a_sphere_light_gives_pi_l_r2_over_d2_cosine() {
-    for (x, y, r) in [(0.0, 2.0, 1.0), (2.0, 3.0, 1.5), (3.0, 1.0, 0.9), (0.0, 1.0, 0.99)] {
-        let z = 0.4 * x;
-        let d2: f64 = x * x + y * y + z * z;
-        let expected = PI * 3.0 * r * r / d2 * y / d2.sqrt();
-        let light = format!(r#""a": sphere(center: ({x}, {y}, {z}), radius: {r}, radiance: 3)"#);
-        assert_close(irradiance(&light, 1024), expected, 1e-3);
-    }
-}
-
-/// H27: of fixed power, a sphere light of radius r → 0 is a point light of intensity π r² L.
-#[test]
-fn a_tiny_sphere_light_is_a_point_light() {
-    for r in [1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15] {
-        let radiance = 7.0 / (PI * r * r);
-        let light = format!(r#""a": sphere(center: (1, 2, -2), radius: {r:e}, radiance: {radiance:e})"#);
-        let point = r#""a": point(position: (1, 2, -2), intensity: 7)"#;
-        let (found, expected) = (irradiance(&light, 16), irradiance(point, 16));
-        assert_close(found, expected, f64::max(1e-4, 4.0 * r));
-    }
-}
-
-/// H27: inside a luminous sphere E = π L.
-#[test]
-fn inside_a_sphere_light_the_irradiance_is_pi_l() {
-    for (center, radius) in [((0.0, 0.0), 1.0), ((0.5, 0.3), 1.0), ((0.0, -0.9), 1.0)] {
-        let light =
-            format!(r#""a": sphere(center: ({}, {}, 0), radius: {radius}, radiance: 2)"#, center.0, center.1);
-        assert_close(irradiance(&light, 4096), PI * 2.0, 5e-3);
-    }
-}
-
-/// H26: the centred unit square at height 1: E = 0.7522747 L.
-#[test]
-fn a_quad_light_gives_its_form_factor() {
-    let quad = |more: &str| {
-        irradiance(
-            &format!(
-                r#""a": quad(corner: (-0.5, 1, -0.5), edge_u: (1, 0, 0), edge_v: (0, 0, 1), radiance: 2{more})"#
-            ),
-            256,
-        )
-    };
-    // edge_u × edge_v = −y: towards the floor.
-    assert_close(quad(""), 2.0 * 0.752_274_7, 2e-3);
-    assert_close(quad(", two_sided: true"), 2.0 * 0.752_274_7, 2e-3);
-    assert_close(quad(", visible: false"), 2.0 * 0.752_274_7, 2e-3);
-    let away = |more: &str| {
-        irradiance(
-            &format!(
-                r#""a": quad(corner: (-0.5, 1, -0.5), edge_u: (0, 0, 1), edge_v: (1, 0, 0), radiance: 2{more})"#
-            ),
-            256,
-        )
-    };
-    assert_eq!(away(""), 0.0);
-    assert_close(away(", two_sided: true"), 2.0 * 0.752_274_7, 2e-3);
-}
-
-/// H26: however close, E ≤ π L; and a large light nearby gives nearly all of it.
-#[test]
-fn no_light_gives_more_than_pi_l() {
-    for height in [1.0, 1e-2, 6e-3] {
-        for light in [
-            format!(
-                r#""a": quad(corner: (-1, {height}, -1), edge_u: (2, 0, 0), edge_v: (0, 0, 2), radiance: 1)"#
-            ),
-            format!(r#""a": disk(center: (0, {height}, 0), normal: (0, -1, 0), radius: 1, radiance: 1)"#),
-            format!(r#""a": sphere(center: (0, {}, 0), radius: 1, radiance: 1)"#, 1.0 + height),
-        ] {
-            let found = irradiance(&light, 256);
-            assert!(found <= PI * 1.001, "{light}: {found}");
-            assert!(height > 0.5 || found > 0.97 * PI, "{light}: {found}");
-        }
-    }
 }
 
 #[test]
@@ -253,20 +174,5 @@ fn a_convex_lamp_does_not_light_itself() {
             let worst = picture.grey().into_iter().fold(0.0, f64::max);
             assert!(worst <= 2.0 * (1.0 + 1e-6), "{shape} at scale {scale}: {worst} where 2 is emitted");
         }
-    }
-}
-
-/// H28: what sends nothing gives exact black, and nothing fails.
-#[test]
-fn black_lights_give_an_exactly_black_image() {
-    for lights in [
-        "",
-        r#""a": point(position: (0, 1, 0), intensity: 0)"#,
-        r#""a": sphere(center: (0, 1, 0), radius: 0.1, radiance: 0)"#,
-        r#""a": environment(map: constant(0))"#,
-        r#""a": environment(map: constant(1), scale: 0)"#,
-        r#""a": environment(map: gradient(zenith: 0, horizon: 0, nadir: 0))"#,
-    ] {
-        assert_eq!(irradiance(lights, 8), 0.0, "{lights}");
     }
 }

@@ -2,9 +2,8 @@
 
 use super::shot::{Picture, assert_close, shot};
 use std::f64::consts::PI;
-use terrarium::math::random::{Counter, Stage};
 
-fn plane(material: &str, lights: &str, more: &str, eye: &str) -> f64 {
+pub(crate) fn plane(material: &str, lights: &str, more: &str, eye: &str) -> f64 {
     shot(format!(
         r#"(camera: (eye: {eye}, target: (0, 0, 0), up: (0.1, 0.3, 0.5), fov_deg: 0.01), image: (width: 1, height: 1), antialiasing: none,
         materials: {{ "m": ({material}) }}, lights: {{ {lights} }}, {more} objects: [(shape: box(size: (2, 0.2, 2), center: (0, -0.1, 0)), material: "m")])"#
@@ -12,71 +11,6 @@ fn plane(material: &str, lights: &str, more: &str, eye: &str) -> f64 {
     .passes(256)
     .render()
     .mean()
-}
-
-/// H37: random layers, lit evenly, never send back more than they get.
-#[test]
-fn random_layers_in_an_even_glow_gain_nothing() {
-    let mut random = Counter::new(5, Stage::Test, 0);
-    for _ in 0..40 {
-        let [km, kt, kd] = [random.value(), random.value(), random.value()];
-        let ks = random.value() * (1.0 - km) * (1.0 - kt) * (1.0 - kd);
-        let shininess = libm::pow(10.0, 3.0 * random.value());
-        let angle = random.value() * 1.5;
-        let material = format!(
-            "reflection: {km}, transmission: {kt}, diffuse: {kd}, specular: {ks}, shininess: {shininess}, ior: {}",
-            1.0 + random.value()
-        );
-        let eye = format!("({}, {}, 0)", 3.0 * libm::sin(angle), 3.0 * libm::cos(angle));
-        let found = plane(&material, r#""sky": environment(map: constant(1), samples: 16)"#, "", &eye);
-        // The diffuse floor of the inside hides the glass below it; all else of the sky comes back.
-        assert!(found <= 1.02, "{material}: {found}");
-        let least = km + (1.0 - km) * (1.0 - kt) * kd;
-        assert!(found >= least * 0.97, "{material}: {found} below {least}");
-    }
-}
-
-/// The same under ambient and without any chance: to rounding.
-#[test]
-fn layers_under_ambient_add_up_exactly() {
-    for (km, kd) in [(0.0, 1.0), (0.3, 0.5), (0.5, 0.0), (1.0, 0.7), (0.25, 1.0)] {
-        let found =
-            plane(&format!("reflection: {km}, diffuse: {kd}"), "", "ambient: 1, background: 1,", "(1, 2, 1)");
-        assert_close(found, km + (1.0 - km) * kd, 1e-6);
-    }
-}
-
-/// H37: a perfect mirror of any shape vanishes in an even glow.
-#[test]
-fn perfect_mirrors_vanish_in_an_even_glow() {
-    for shape in
-        ["sphere()", "box()", "cone()", "cylinder()", "polyhedron(kind: dodecahedron)", "cone(caps: false)"]
-    {
-        let picture = shot(format!(
-            r#"(camera: (eye: (2, 2, 3), target: (0, 0.2, 0)), image: (width: 32, height: 32), background: 1,
-            materials: {{ "mirror": (reflection: 1, diffuse: 1) }}, objects: [(shape: {shape}, material: "mirror", transform: [scale((1, 0.7, 1.2))]), (shape: sphere(radius: 0.5), material: "mirror", transform: [translate((1.2, 0, 0))])])"#
-        ))
-        .passes(4)
-        .render();
-        assert!(picture.grey().iter().all(|&x| (x - 1.0).abs() < 1e-6), "{shape}");
-    }
-}
-
-/// H13: F(60°) = 0.0891867, at Brewster's angle 0.0739645, head on 0.04; seen as a reflection on glass.
-#[test]
-fn glass_reflects_as_fresnel_says() {
-    for (deg, expected) in [(0.0, 0.04), (56.3099, 0.073_964_5), (60.0, 0.089_186_7)] {
-        let angle = f64::to_radians(deg);
-        // One event only: what is reflected at the front; the inside ends in the depth limit.
-        let found = plane(
-            "transmission: 1, ior: 1.5",
-            "",
-            "render: (max_depth: 1), background: 1,",
-            &format!("({}, {}, 0)", 3.0 * angle.sin(), 3.0 * angle.cos() + 1e-9),
-        );
-        // Refracted light would leave the thin box only after a second event.
-        assert_close(found, expected, 1e-5);
-    }
 }
 
 /// The normalised highlight: (n+2)/2π·cosⁿα·cosθ under a directional light.

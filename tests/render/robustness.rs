@@ -157,34 +157,6 @@ fn random_scenes_under_every_light_are_sound() {
     }
 }
 
-/// H44: images of one pixel, one row and one column; tiles larger than they are.
-#[test]
-fn the_smallest_images_render() {
-    for (width, height) in [(1, 1), (1, 500), (500, 1)] {
-        for aa in ["progressive", "grid(3)", "adaptive()", "none"] {
-            let picture = shot(format!(
-                "(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: {width}, height: {height}), antialiasing: {aa}, background: 0.25)"
-            ))
-            .passes(2)
-            .render();
-            assert!(picture.grey().iter().all(|&x| x == 0.25));
-        }
-    }
-}
-
-/// H47: an up along the view is warned of and replaced; the picture is sound.
-#[test]
-fn an_up_along_the_view_is_replaced() {
-    let shot = shot(
-        r#"(camera: (eye: (0, 5, 0), target: (0, 0, 0)), image: (width: 8, height: 8),
-        materials: { "m": (emission: 1) }, objects: [(shape: sphere(), material: "m")])"#,
-    );
-    let warnings = shot.load().warnings;
-    assert!(format!("{warnings:?}").contains("up"), "{warnings:?}");
-    let picture = shot.passes(4).render();
-    assert!(picture.is_sound() && picture.mean() > 0.0);
-}
-
 /// An ordinary scene is healthy in the strict sense.
 #[test]
 fn an_ordinary_scene_is_healthy() {

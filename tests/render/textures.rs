@@ -5,7 +5,7 @@ use super::shot::{Shot, agreement, assert_close, shot};
 use std::path::Path;
 
 /// All shapes in rows, of one material.
-fn shelf(material: &str, textures: &str, folder: &Path) -> Shot {
+pub(crate) fn shelf(material: &str, textures: &str, folder: &Path) -> Shot {
     let shapes = [
         "sphere(radius: 0.4)",
         "box(size: (0.6, 0.6, 0.6))",
@@ -42,7 +42,7 @@ fn shelf(material: &str, textures: &str, folder: &Path) -> Shot {
     .folder(folder)
 }
 
-fn shelf_folder() -> tempfile::TempDir {
+pub(crate) fn shelf_folder() -> tempfile::TempDir {
     let dir = folder();
     icosphere(2).scaled(0.4).write(&dir.path().join("ball.obj"));
     // A tent whose texture coordinates fold back, and collapse on one triangle.
@@ -54,52 +54,6 @@ fn shelf_folder() -> tempfile::TempDir {
     )
     .expect("the folder is writable");
     dir
-}
-
-/// H22, S7: the map (0.5, 0.5, 1) and a level bump map change nothing, on any shape, to the bit.
-#[test]
-fn flat_maps_change_no_bit() {
-    let dir = shelf_folder();
-    write_exr(&dir.path().join("flat.exr"), 4, 4, |_, _| [0.5, 0.5, 1.0]);
-    let image = r#""flat": image(path: "flat.exr"), "tiles": checker(a: 0.5, b: 0.5, squares: (4, 4))"#;
-    for layers in ["diffuse: 0.7, specular: 0.2", "reflection: 1"] {
-        let plain = shelf(layers, "", dir.path()).render();
-        assert!(plain.mean() > 0.05);
-        for relief in [
-            r#"normal_map: (texture: "flat")"#,
-            r#"normal_map: (texture: "flat", strength: 7)"#,
-            r#"bump_map: (texture: "flat", height_m: 3)"#,
-            r#"bump_map: (texture: "tiles", height_m: 3)"#,
-        ] {
-            let mapped = shelf(&format!("{layers}, {relief}"), image, dir.path()).render();
-            let differing = plain.bits().iter().zip(mapped.bits()).filter(|(a, b)| **a != *b).count();
-            assert_eq!(differing, 0, "{layers} with {relief}");
-        }
-    }
-}
-
-/// S7: strong maps are finite everywhere, poles and seams included, and not black where lit.
-#[test]
-fn strong_maps_stay_sound() {
-    let dir = shelf_folder();
-    write_exr(&dir.path().join("wild.exr"), 16, 16, |x, y| {
-        [(x * 5 % 16) as f32 / 15.0, (y * 7 % 16) as f32 / 15.0, ((x + y) % 3) as f32 / 4.0]
-    });
-    let image = r#""wild": image(path: "wild.exr"), "noise": noise(a: 0, b: 1, size_m: 0.1)"#;
-    for relief in
-        [r#"normal_map: (texture: "wild", strength: 10)"#, r#"bump_map: (texture: "noise", height_m: 5)"#]
-    {
-        for layers in ["diffuse: 0.7", "reflection: 0.9", "transmission: 1", "specular: 0.9, shininess: 1000"]
-        {
-            let picture = shelf(&format!("{layers}, {relief}"), image, dir.path()).render();
-            assert!(picture.is_sound(), "{layers}, {relief}");
-            assert_eq!(picture.rendered.stats.rare_events[0].count, 0, "non-finite samples");
-            if layers == "diffuse: 0.7" {
-                // The ambient term alone gives 0.007.
-                assert!(picture.grey().iter().all(|&x| x == 0.0 || x > 0.006));
-            }
-        }
-    }
 }
 
 /// A normal map tilts the way it says: red along ∂p/∂u.

@@ -8,27 +8,6 @@ fn estimate(map: &PhotonMap, p: Vec3, n: Vec3, radius: f32) -> Gathered {
     map.gather(&Query { p, n, radius: Radius::Fixed(radius) }, Kernel::Disc, |_| Vec3::ONE)
 }
 
-/// One half at a straight edge, one quarter at a corner, of the density inside; and the offset points
-/// inwards, by the centroid of a half and of a quarter disc: 4/3π along each axis that is cut.
-#[test]
-fn the_raw_estimate_is_half_at_an_edge_and_a_quarter_at_a_corner() {
-    let count = 400_000;
-    let map = PhotonMap::new(floor(count, 0));
-    let centroid = 4.0 / (3.0 * std::f32::consts::PI);
-    for (p, part, offset) in [
-        (Vec3::new(0.5, 0.0, 0.5), 1.0, Vec3::ZERO),
-        (Vec3::new(0.0, 0.0, 0.5), 0.5, Vec3::X * centroid),
-        (Vec3::new(0.0, 0.0, 0.0), 0.25, (Vec3::X + Vec3::Z) * centroid),
-    ] {
-        let gathered = estimate(&map, p, Vec3::Y, 0.2);
-        // 1/√m of m photons, four of them
-        let error = 4.0 / (gathered.photons as f32).sqrt();
-        let off = gathered.radiance.x / (count as f32 * part) - 1.0;
-        assert!(off.abs() < error, "{p}: {off} of {part}");
-        assert!((gathered.offset - offset).length() < error, "{p}: {}", gathered.offset);
-    }
-}
-
 /// A wall of 1e-6 with light on one side only.
 #[test]
 fn the_other_side_of_a_thin_wall_is_black() {

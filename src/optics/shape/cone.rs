@@ -5,7 +5,8 @@
 //! the coordinates of their bounding squares.
 //!
 //! The quadric is solved at the ray's point nearest to the shape's centre, so that a distant origin
-//! costs no more than its own rounding.
+//! costs no more than its own rounding; but at the origin if that is near, so that a ray that starts
+//! close to an apex is judged by the small numbers that it has there.
 
 use super::cuboid::Cuboid;
 use super::disk::sample_ring;
@@ -20,6 +21,10 @@ use std::f64::consts::{PI, TAU};
 const SIDE: u32 = 0;
 const BOTTOM: u32 = 1;
 const TOP: u32 = 2;
+
+/// Squared distance from the centre, in squared radii of the sphere around the shape, up to which a ray starts
+/// near: its whole surface, and a little more.
+const NEAR: f64 = 1.25;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
@@ -40,9 +45,13 @@ impl Cone {
         self.caps
     }
 
-    /// The ray and its parameter shifted to the point nearest to the centre.
+    /// The ray and its parameter shifted to the point nearest to the centre, where that is worth it.
     fn shifted(&self, ray: &Ray) -> Option<(Ray, f64)> {
         let from_center = ray.origin - DVec3::new(0.0, 0.5 * self.height, 0.0);
+        let (r, h) = (self.radius.max(self.top_radius), 0.5 * self.height);
+        if from_center.length_squared() <= NEAR * (r * r + h * h) {
+            return Some((*ray, 0.0));
+        }
         let t = -from_center.dot(ray.dir) / ray.dir.length_squared();
         t.is_finite().then(|| (Ray { origin: ray.at(t), dir: ray.dir }, t))
     }

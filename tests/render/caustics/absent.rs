@@ -3,7 +3,7 @@
 use crate::render::shot::{Picture, Shot, focused as shot};
 use terrarium::render::Aov;
 
-fn scene(photons: &str, materials: &str, lights: &str, objects: &str) -> Shot {
+pub(crate) fn scene(photons: &str, materials: &str, lights: &str, objects: &str) -> Shot {
     shot(format!(
         r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 24, height: 16), indirect: true, indirect_by: paths, photons: {photons},
         materials: {{ "white": (diffuse: 0.7, specular: 0.1), {materials} }}, lights: {{ {lights} }},
@@ -13,27 +13,27 @@ fn scene(photons: &str, materials: &str, lights: &str, objects: &str) -> Shot {
     .passes(2)
 }
 
-const LAMPS: &str = r#""a": point(position: (0, 3, 0), intensity: 5), "b": sphere(center: (1, 3, 0), radius: 0.3, radiance: 5),
+pub(crate) const LAMPS: &str = r#""a": point(position: (0, 3, 0), intensity: 5), "b": sphere(center: (1, 3, 0), radius: 0.3, radiance: 5),
     "sun": directional(direction: (1, -2, 0), irradiance: 1), "sky": environment(map: constant(0.5))"#;
+
+/// How many values of the layers that photons fill are not +0, and how many there are.
+pub(crate) fn photon_layers(picture: &Picture) -> (u64, u64) {
+    let colours = ["caustic", "photons"].into_iter().flat_map(|layer| ["R", "G", "B"].map(|c| (layer, c)));
+    let (mut lit, mut values) = (0, 0);
+    for (layer, channel) in colours.chain([("photon_density", "Y")]) {
+        let found = picture.channel(layer, channel);
+        lit += found.iter().filter(|x| x.to_bits() != 0).count() as u64;
+        values += found.len() as u64;
+    }
+    (lit, values)
+}
 
 #[track_caller]
 fn assert_no_photons(picture: &Picture) {
     assert!(picture.rendered.stats.photons.photons.is_none());
     assert_eq!(picture.rendered.stats.memory.photons_bytes, 0);
-    for layer in ["caustic", "photons"] {
-        for channel in ["R", "G", "B"] {
-            assert!(picture.channel(layer, channel).iter().all(|x| x.to_bits() == 0), "{layer}");
-        }
-    }
-    assert!(picture.channel("photon_density", "Y").iter().all(|x| x.to_bits() == 0));
+    assert_eq!(photon_layers(picture).0, 0);
     assert!(picture.mean() > 0.0);
-}
-
-/// S3.
-#[test]
-fn a_scene_without_mirrors_and_glass_has_no_caustic_and_no_photons() {
-    let ball = r#"(shape: sphere(center: (0, 0.5, 0), radius: 0.5), material: "white")"#;
-    assert_no_photons(&scene("progressive()", "", LAMPS, ball).render());
 }
 
 #[test]
@@ -44,15 +44,6 @@ fn photons_that_are_off_leave_plain_shadows() {
     let on = scene("progressive()", r#""glass": (transmission: 1)"#, LAMPS, ball).render();
     assert!(on.rendered.stats.photons.photons.as_ref().is_some_and(|p| p.stored > 1000));
     assert!(on.mean() > picture.mean());
-}
-
-/// H14.
-#[test]
-fn an_object_of_the_index_of_its_surroundings_emits_no_photons_and_is_not_there() {
-    let ball = r#"(shape: sphere(center: (0, 0.5, 0), radius: 0.5), material: "air")"#;
-    let with = scene("progressive()", r#""air": (transmission: 1, ior: 1)"#, LAMPS, ball).render();
-    assert_no_photons(&with);
-    assert!(with.bits() == scene("progressive()", "", LAMPS, "").render().bits());
 }
 
 #[test]

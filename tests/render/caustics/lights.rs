@@ -1,4 +1,4 @@
-//! H35: beneath a flat pane every kind of light gives the irradiance that it gives without the pane, times
+//! Beneath a flat pane every kind of light gives the irradiance that it gives without the pane, times
 //! what the pane transmits, direction by direction. The pane is so thin that it shifts no ray.
 
 use super::lab::{Beneath, pane};

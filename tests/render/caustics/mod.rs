@@ -1,13 +1,12 @@
 //! Light that glass and mirrors focus, from the scene's text to the picture: against closed forms,
 //! against references, and against itself seen in another way.
 
-mod absent;
-mod lab;
+pub(crate) mod absent;
+pub(crate) mod lab;
 mod lights;
-mod parts;
+pub(crate) mod parts;
 mod radius;
-mod scales;
-mod seen;
-mod surfaces;
+pub(crate) mod scales;
+pub(crate) mod surfaces;
 mod transmission;
 mod yardstick;

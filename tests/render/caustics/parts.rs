@@ -14,7 +14,7 @@ const AOVS: [Aov; 8] = [
     Aov::Samples,
 ];
 
-fn scene(antialiasing: &str, photons: &str) -> Shot {
+pub(crate) fn scene(antialiasing: &str, photons: &str) -> Shot {
     shot(format!(
         r#"(camera: (eye: (1, 2, 4), target: (0, 0.3, 0)), image: (width: 40, height: 30), antialiasing: {antialiasing},
         photons: {photons}, indirect: true,
@@ -27,31 +27,8 @@ fn scene(antialiasing: &str, photons: &str) -> Shot {
     .aovs(&AOVS)
 }
 
-const SMALL: &str = "progressive(count: 20000), indirect_by: paths";
-const BY_PHOTONS: &str = "progressive(count: 20000), indirect_by: photons";
-
-/// H48.
-#[test]
-fn threads_and_tiles_change_no_bit_of_caustics_and_indirect_light() {
-    for (antialiasing, photons) in [
-        ("progressive", SMALL),
-        ("progressive", BY_PHOTONS),
-        ("grid(2)", "classic(count: 20000, k: 50)"),
-        ("adaptive(threshold: 0.05, depth: 2)", SMALL),
-    ] {
-        let mut first = None;
-        for (threads, tile) in [(1, 32), (2, 7), (5, 64), (5, 1000)] {
-            let mut shot = scene(antialiasing, photons).passes(3);
-            shot.options.threads = Some(threads);
-            shot.options.tile = tile;
-            let bits = shot.render().bits();
-            assert!(
-                *first.get_or_insert_with(|| bits.clone()) == bits,
-                "{antialiasing}, {photons}: {threads} threads, tiles of {tile}: other pixels"
-            );
-        }
-    }
-}
+pub(crate) const SMALL: &str = "progressive(count: 20000), indirect_by: paths";
+pub(crate) const BY_PHOTONS: &str = "progressive(count: 20000), indirect_by: photons";
 
 /// The mean of two halves, in single precision each, is the whole to its last bits.
 #[test]

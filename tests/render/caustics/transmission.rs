@@ -2,21 +2,12 @@
 
 use super::lab::{Beneath, mean_of};
 use crate::render::shot::assert_close;
-use std::path::Path;
 
 const SUN: &str = r#""sun": directional(direction: (0, -1, 0), irradiance: 1)"#;
 
 /// Of normal incidence (1 − R)/(1 + R) with R = 0.04, reflections inside of it included; a single passage
 /// would be 0.9216.
 const PANE: f64 = 0.923_077;
-
-#[test]
-fn a_pane_at_normal_incidence_transmits_0_923() {
-    let beneath = Beneath { thickness: 0.05, ..Beneath::default() };
-    let found = beneath.irradiance(&beneath.shot(SUN, "", ""), Path::new(""));
-    found.assert_is(PANE, 1e-5, "pane");
-    assert!(found.error < 2e-3, "{found:?}");
-}
 
 #[test]
 fn every_kernel_gives_the_same_energy() {
@@ -41,7 +32,7 @@ fn the_single_map_gives_the_energy_of_the_passes() {
     assert_close(of("classic(count: 300000, k: 100)"), of("progressive(count: 60000)"), 0.02);
 }
 
-/// H29: fewer photons than are asked for are spread over the largest disc, and none are nothing.
+/// Fewer photons than are asked for are spread over the largest disc, and none are nothing.
 #[test]
 fn too_few_photons_keep_their_energy_in_the_mean_and_none_are_black() {
     let beneath = Beneath { photons: "classic(count: 40, k: 500, max_radius_m: 1)", ..Beneath::default() };

@@ -4,8 +4,6 @@ use super::*;
 use crate::build::bvh::TriangleBvh;
 use crate::math::DVec3;
 
-const PLACE: DVec3 = DVec3::new(148_376.0, 1234.0, -223_423.0);
-
 /// Points that rays are aimed at: every vertex, every edge's middle.
 fn targets(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let edges = triangles.iter().flat_map(|t| (0..3).map(|k| (t[k], t[(k + 1) % 3])));
@@ -41,54 +39,11 @@ fn misses(place: DVec3, radius: f64, random_rays: usize) -> usize {
 }
 
 #[test]
-fn no_ray_leaves_a_closed_sphere_far_from_the_origin() {
-    assert_eq!(misses(PLACE, 2.0, 100_000), 0);
-}
-
-#[test]
 fn no_ray_leaves_a_closed_sphere_of_any_size() {
     for scale in [1e-4, 1e-2, 1.0, 1e2, 1e4] {
         assert_eq!(misses(DVec3::ZERO, scale, 10_000), 0, "radius {scale}");
         assert_eq!(misses(DVec3::new(-10.0, 3.0, 20.0) * scale, scale, 10_000), 0, "radius {scale}");
     }
-}
-
-/// ‖(o + t·d) − Σ bᵢ·vᵢ‖ ≤ 32 ε·(‖o‖ + ‖v‖max) with ε = 2⁻²³, in double precision, for needles
-/// seen along and across, near and far; and the barycentrics are a partition.
-#[test]
-fn the_point_on_the_ray_and_the_point_on_the_triangle_agree() {
-    let mut rng = Rng(6);
-    let mut hits = 0;
-    for case in 0..400 {
-        let place = if case % 2 == 0 { Vec3::ZERO } else { rng.cube() * 1e5 };
-        let size = [1e-3, 1.0, 100.0][case % 3];
-        let mut vertices = Vec::new();
-        for _ in 0..64 {
-            let (a, along) = (rng.cube() * size, rng.cube() * size);
-            let thin = rng.cube() * size * [1.0, 1e-3, 1e-6][rng.next() as usize % 3];
-            vertices.extend([a, a + along, a + along * rng.unit() + thin].map(|v| v + place));
-        }
-        let triangles: Vec<[u32; 3]> = (0..64).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let tree = TriangleBvh::build(&vertices, &triangles);
-        for i in 0..300 {
-            let t = (i % 64) * 3;
-            let origin = if i % 3 == 0 { vertices[t] } else { place + rng.cube() * size * 2.0 };
-            let (u, v) = (rng.unit(), rng.unit());
-            let aim = vertices[t] * (1.0 - u) + (vertices[t + 1] * (1.0 - v) + vertices[t + 2] * v) * u;
-            let dir = if aim == origin { rng.cube() } else { aim - origin };
-            let Some(hit) = tree.nearest(&ray(origin, dir), f32::INFINITY) else { continue };
-            hits += 1;
-            let corners = triangles[hit.triangle as usize].map(|v| vertices[v as usize].as_dvec3());
-            let on_ray = origin.as_dvec3() + dir.as_dvec3() * f64::from(hit.t);
-            let on_triangle: DVec3 = corners.iter().zip(hit.b).map(|(v, b)| *v * f64::from(b)).sum();
-            let largest = corners.iter().fold(0.0f64, |m, v| m.max(v.length()));
-            let bound = 32.0 * f64::from(f32::EPSILON) * (origin.as_dvec3().length() + largest);
-            let gap = on_ray.distance(on_triangle);
-            assert!(gap <= bound, "case {case}, ray {i}: {gap} above {bound}, {hit:?}");
-            assert!(hit.b.iter().all(|b| *b >= 0.0) && (hit.b.iter().sum::<f32>() - 1.0).abs() < 1e-6);
-        }
-    }
-    assert!(hits > 50_000, "only {hits} hits");
 }
 
 /// A fan whose triangles all share the vertex that the ray goes through: equal distances, and the
