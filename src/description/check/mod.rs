@@ -28,8 +28,7 @@ pub(super) fn check(
     root: &Index,
     sources: &Sources,
     folder: &FilePath,
-    files: &[(String, Path)],
-    unread: Unread,
+    (files, unread): (&[(String, Path)], Unread),
     incomplete: bool,
     sound: bool,
 ) -> Vec<Diagnostic> {
