@@ -1,6 +1,6 @@
 """Renders the gallery and writes its page.
 
-    benches/gallery.py [--draft] [--again]
+    benches/gallery.py [--draft] [--again] [SCENE...]
 
 Every scene of scenes/gallery/ and scenes/terrarium.ron is rendered to renders/gallery/, and the page is
 docs/gallery.md. The first comment line of a scene is its caption. A line of that comment
@@ -11,7 +11,8 @@ asks for a further picture of the scene with options of `terrarium render`; `--l
 layer instead of the picture, and is rendered with one pass. What a picture was made of, and what its
 render said, is kept in renders/gallery/pictures.json; only pictures whose scene, meshes, textures or
 options have changed since are rendered again, or all with --again. With --draft everything is rendered
-at half the size with an eighth of the passes to renders/draft/, always, and no page is written.
+at half the size with an eighth of the passes to renders/draft/, always, and no page is written. With
+names of scenes only those are rendered.
 """
 
 import hashlib
@@ -153,6 +154,7 @@ def page(scenes, record):
 
 def main():
     draft, again = "--draft" in sys.argv, "--again" in sys.argv
+    only = [word for word in sys.argv[1:] if not word.startswith("--")]
     scenes = {stem: read(stem) for _, stems in CHAPTERS for stem in stems}
     out = os.path.join(ROOT, "renders", "draft" if draft else "gallery")
     os.makedirs(out, exist_ok=True)
@@ -162,8 +164,8 @@ def main():
         with open(book, encoding="utf-8") as text:
             record = json.load(text)
     begun = time.monotonic()
-    for pictures, size in scenes.values():
-        for picture in pictures:
+    for stem, (pictures, size) in scenes.items():
+        for picture in pictures if not only or stem in only else []:
             options = picture.options + smaller(size, draft) + (draft_passes(picture) if draft else [])
             if picture.layer:
                 options += ["--passes", "1"]
@@ -193,7 +195,8 @@ def main():
             if not draft:
                 write(book, json.dumps(record, indent=1, sort_keys=True) + "\n")
     print(f"the gallery took {time.monotonic() - begun:.0f} s")
-    if not draft:
+    complete = all(picture.name in record for pictures, _ in scenes.values() for picture in pictures)
+    if not draft and complete:
         write(os.path.join(ROOT, "docs", "gallery.md"), page(scenes, record))
 
 

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::mesh::Mesh;
 
-const SEGMENTS: usize = 72;
+const SEGMENTS: usize = 60;
 
 /// Height of the wine's surface in the wine glass, in its own unit.
 const LEVEL: f64 = 1.36;
@@ -43,7 +43,7 @@ pub fn wine_glass() -> Mesh {
             [0.085, 0.905],
             [0.000, 0.890],
         ],
-        3,
+        5,
     ));
     turned("wine glass, closed, wall 0.014, 2.06 high: unit 0.1 m", &profile)
 }
