@@ -1,6 +1,6 @@
 """Renders the gallery and writes its page.
 
-    benches/gallery.py [--draft] [--again] [SCENE...]
+    benches/gallery.py [--draft] [--again] [--passes N] [SCENE...]
 
 Every scene of scenes/gallery/ and scenes/terrarium.ron is rendered to renders/gallery/, and the page is
 docs/gallery.md. The first comment line of a scene is its caption. A line of that comment
@@ -12,13 +12,14 @@ layer instead of the picture, and is rendered with one pass. What a picture was 
 render said, is kept in renders/gallery/pictures.json; only pictures whose scene, meshes, textures or
 options have changed since are rendered again, or all with --again. With --draft everything is rendered
 at half the size with an eighth of the passes to renders/draft/, always, and no page is written. With
-names of scenes only those are rendered.
+names of scenes only those are rendered. --passes N takes N passes at most, until the next run without it.
 """
 
 import hashlib
 import json
 import os
 import re
+import resource
 import shlex
 import subprocess
 import sys
@@ -38,7 +39,7 @@ CHAPTERS = [
     ("Caustics", ["caustic", "ring", "pool", "magnifier", "wine", "prism"]),
     ("Light from all around", ["cornell", "still_life", "depth_of_field"]),
 ]
-WIDTH = 960
+WIDTH = 800
 LARGEST = 640_000
 
 
@@ -102,11 +103,14 @@ def smaller(size, draft):
     return [] if factor == 1 else ["--set", f"image.width={width}", "--set", f"image.height={height}"]
 
 
-def draft_passes(picture):
-    """An eighth of the passes of the scene."""
+def fewer_passes(picture, draft, most):
+    """Options for an eighth of the picture's passes, or for `most`; none where it asks for no number."""
     with open(os.path.join(ROOT, picture.scene), encoding="utf-8") as text:
-        found = re.search(r"passes\s*[:=]\s*(\d+)", text.read())
-    return ["--passes", str(max(4, int(found[1]) // 8))] if found else []
+        own = re.search(r"passes\s*[:=]\s*(\d+)", text.read())
+    asked = re.search(r"--passes (\d+)", " ".join(picture.options)) or own
+    if not asked or not (draft or most):
+        return []
+    return ["--passes", str(max(4, int(asked[1]) // 8) if draft else min(most, int(asked[1])))]
 
 
 def render(picture, options, out):
@@ -123,6 +127,20 @@ def render(picture, options, out):
             return json.load(text), dependencies(rule)
 
 
+def load(book):
+    """What is kept of the pictures; another run may be adding to it."""
+    if not os.path.exists(book):
+        return {}
+    with open(book, encoding="utf-8") as text:
+        return json.load(text)
+
+
+def processor_seconds():
+    """Of the renders so far: they take the same however busy the machine is."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def told(seconds):
     return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
 
@@ -134,15 +152,15 @@ def line(picture, kept):
     options = " ".join(f"'{word}'" if re.search(r"[()]", word) else word for word in words)
     error = kept["error"]
     accuracy = "" if error is None else f", stated error {100 * error:.2g} %"
-    return f"{where}{' with `' + options + '`' if options else ''}: {told(kept['seconds'])}, " \
+    return f"{where}{' with `' + options + '`' if options else ''}: {told(kept['processor_seconds'])}, " \
            f"{kept['passes']} pass{'es' if kept['passes'] > 1 else ''}{accuracy}"
 
 
 def page(scenes, record):
     text = ["# Gallery", "",
             "What Terrarium renders, each with the scene that says so: nothing else was set, and nothing was",
-            "touched up. Below each picture are the wall time on two cores and the relative error that the render",
-            "states of itself ([what that is](../GUIDE.md#how-accurate-the-picture-is)); pictures of one pass state none.",
+            "touched up. Below each picture are the processor time (two cores take half as long) and the relative",
+            "error that the render states of itself ([what that is](../GUIDE.md#how-accurate-the-picture-is)); pictures of one pass state none.",
             "`make gallery` renders what has changed and writes this page."]
     for heading, stems in CHAPTERS:
         text += ["", f"## {heading}"]
@@ -154,21 +172,22 @@ def page(scenes, record):
 
 def main():
     draft, again = "--draft" in sys.argv, "--again" in sys.argv
-    only = [word for word in sys.argv[1:] if not word.startswith("--")]
+    words = sys.argv[1:]
+    most = int(words.pop(words.index("--passes") + 1)) if "--passes" in words else None
+    only = [word for word in words if not word.startswith("--")]
     scenes = {stem: read(stem) for _, stems in CHAPTERS for stem in stems}
     out = os.path.join(ROOT, "renders", "draft" if draft else "gallery")
     os.makedirs(out, exist_ok=True)
     book = os.path.join(out, "pictures.json")
-    record = {}
-    if os.path.exists(book) and not draft:
-        with open(book, encoding="utf-8") as text:
-            record = json.load(text)
+    record = {} if draft else load(book)
     begun = time.monotonic()
     for stem, (pictures, size) in scenes.items():
         for picture in pictures if not only or stem in only else []:
-            options = picture.options + smaller(size, draft) + (draft_passes(picture) if draft else [])
+            options = picture.options + smaller(size, draft) + fewer_passes(picture, draft, most)
             if picture.layer:
                 options += ["--passes", "1"]
+            while options.count("--passes") > 1:
+                del options[options.index("--passes"):options.index("--passes") + 2]
             file = os.path.join(out, picture.name + ".png")
             asked = options + [picture.layer or ""]
             kept = record.get(picture.name)
@@ -177,22 +196,24 @@ def main():
                 for name, value in kept["files"].items())
             if fresh and not again:
                 continue
-            print(f"{picture.name} ...", end=" ", flush=True)
+            before = processor_seconds()
             stats, files = render(picture, options, file)
+            seconds = processor_seconds() - before
             accuracy = stats["accuracy"]
-            record[picture.name] = {
-                "options": asked, "seconds": round(stats["seconds"], 2), "passes": stats["passes"],
+            made = {
+                "options": asked, "processor_seconds": round(seconds, 1), "passes": stats["passes"],
                 "error": accuracy and accuracy["error"], "interval": accuracy and accuracy["interval"],
                 "files": {name: sha(name) for name in files},
             }
             bytes_ = os.path.getsize(file)
             error = "" if not accuracy else f", error {100 * accuracy['error']:.2g} %"
-            print(f"{told(stats['seconds'])}{error}, {bytes_ // 1000} kB", flush=True)
+            print(f"{picture.name}: {told(seconds)}{error}, {bytes_ // 1000} kB", flush=True)
             if bytes_ > LARGEST:
                 print(f"  {picture.name}.png is large for a page")
             for warning in stats["warnings"]:
                 print(f"  {warning}")
             if not draft:
+                record = load(book) | {picture.name: made}
                 write(book, json.dumps(record, indent=1, sort_keys=True) + "\n")
     print(f"the gallery took {time.monotonic() - begun:.0f} s")
     complete = all(picture.name in record for pictures, _ in scenes.values() for picture in pictures)
