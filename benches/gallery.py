@@ -1,6 +1,6 @@
 """Renders the gallery and writes its page.
 
-    benches/gallery.py [--draft] [--again] [--passes N] [SCENE...]
+    benches/gallery.py [--draft] [--again] [--passes N] [NAME...]
 
 Every scene of scenes/gallery/ and scenes/terrarium.ron is rendered to renders/gallery/, and the page is
 docs/gallery.md. The first comment line of a scene is its caption. A line of that comment
@@ -12,7 +12,7 @@ layer instead of the picture, and is rendered with one pass. What a picture was 
 render said, is kept in renders/gallery/pictures.json; only pictures whose scene, meshes, textures or
 options have changed since are rendered again, or all with --again. With --draft everything is rendered
 at half the size with an eighth of the passes to renders/draft/, always, and no page is written. With
-names of scenes only those are rendered. --passes N takes N passes at most, until the next run without it.
+names of scenes or pictures only those are rendered. --passes N takes N passes at most, until the next run without it.
 """
 
 import hashlib
@@ -182,7 +182,9 @@ def main():
     record = {} if draft else load(book)
     begun = time.monotonic()
     for stem, (pictures, size) in scenes.items():
-        for picture in pictures if not only or stem in only else []:
+        for picture in pictures:
+            if only and not {stem, picture.name} & set(only):
+                continue
             options = picture.options + smaller(size, draft) + fewer_passes(picture, draft, most)
             if picture.layer:
                 options += ["--passes", "1"]
