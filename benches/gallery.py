@@ -149,6 +149,8 @@ def line(picture, kept):
     """What the page says below a picture."""
     where = f"[{picture.scene}](../{picture.scene})"
     words = picture.options + (["--aov", picture.layer] if picture.layer else [])
+    while "--passes" in words:
+        del words[words.index("--passes"):words.index("--passes") + 2]
     options = " ".join(f"'{word}'" if re.search(r"[()]", word) else word for word in words)
     error = kept["error"]
     accuracy = "" if error is None else f", stated error {100 * error:.2g} %"
