@@ -220,6 +220,8 @@ def main():
                 record = load(book) | {picture.name: made}
                 write(book, json.dumps(record, indent=1, sort_keys=True) + "\n")
     print(f"the gallery took {time.monotonic() - begun:.0f} s")
+    # As they are now: another run may have finished meanwhile.
+    scenes, record = {stem: read(stem) for stem in scenes}, record if draft else load(book)
     complete = all(picture.name in record for pictures, _ in scenes.values() for picture in pictures)
     if not draft and complete:
         write(os.path.join(ROOT, "docs", "gallery.md"), page(scenes, record))
