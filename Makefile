@@ -1,5 +1,9 @@
 # What can be done here: `make help`. Needs a Rust toolchain and make.
 
+# With no folder named, the gallery's scenes are rendered too.
+ifeq ($(origin SCENES),undefined)
+GALLERY := $(wildcard scenes/gallery)
+endif
 SCENES ?= scenes
 OUT    ?= renders
 CARGO  ?= cargo
@@ -9,7 +13,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names test hard lint bench yardstick honesty study assets schema install clean help FORCE
+.PHONY: all build renders images names gallery test hard lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -25,18 +29,18 @@ all: build
 ## build: build the program
 build: $(TERRARIUM)
 
-## renders: render every scene of SCENES (default: scenes) to OUT (default: renders), only what changed
+## renders: render every scene of SCENES (default: scenes and scenes/gallery) to OUT (default: renders), only what changed
 renders: build names
 	@rm -rf '$(OUT)/.failed'
 	+@$(MAKE) -f '$(SELF)' --no-print-directory -k images || { \
 	    echo >&2; \
 	    for scene in '$(OUT)'/.failed/*; do \
-	        if [ -e "$$scene" ]; then echo "failed: $(SCENES)/$${scene##*/}" >&2; fi; \
+	        if [ -e "$$scene" ]; then echo "failed: $$(cat "$$scene")" >&2; fi; \
 	    done; \
 	    exit 1; }
 
 # Scenes are the .ron and .toml files of the folder itself; subfolders hold what scenes include.
-FOUND  := $(sort $(wildcard $(SCENES)/*.ron $(SCENES)/*.toml))
+FOUND  := $(sort $(foreach folder,$(SCENES) $(GALLERY),$(wildcard $(folder)/*.ron $(folder)/*.toml)))
 STEMS  := $(sort $(basename $(notdir $(FOUND))))
 IMAGES := $(foreach stem,$(STEMS),$(OUT)/$(stem).exr $(OUT)/$(stem).png)
 
@@ -49,7 +53,7 @@ names:
 	    echo "make: SCENES and OUT may hold letters, digits and . _ - + @ , = only: rename the folder" >&2; \
 	    exit 2;; esac
 	@[ -d '$(SCENES)' ] || { echo "make: there is no folder $(SCENES)" >&2; exit 2; }
-	@twins=; for scene in '$(SCENES)'/*.ron '$(SCENES)'/*.toml; do \
+	@twins=; for scene in $(foreach folder,$(SCENES) $(GALLERY),'$(folder)'/*.ron '$(folder)'/*.toml); do \
 	    [ -e "$$scene" ] || continue; \
 	    case "$${scene##*/}" in *[!A-Za-z0-9._+@,=-]*) \
 	        echo "make: $$scene: a scene's name may hold letters, digits and . _ - + @ , = only: rename it" >&2; \
@@ -59,6 +63,9 @@ names:
 	for scene in $$twins; do \
 	    echo "make: $$scene and $${scene%.ron}.toml would be the same image: rename one" >&2; \
 	done; [ -z "$$twins" ] || exit 2
+	@for stem in $(filter $(basename $(notdir $(wildcard $(SCENES)/*.ron $(SCENES)/*.toml))),$(if $(GALLERY),$(basename $(notdir $(wildcard $(GALLERY)/*.ron $(GALLERY)/*.toml))))); do \
+	    echo "make: $$stem of $(SCENES) and of $(GALLERY) would be the same image: rename one" >&2; exit 2; \
+	done
 
 # Several renders at once share the terminal: no bars then.
 PROGRESS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),--progress none)
@@ -68,7 +75,7 @@ define render
 	@mkdir -p '$(OUT)/.deps' && rm -f '$(OUT)/.failed/$(notdir $<)'
 	@'$(TERRARIUM)' render '$<' -o '$(OUT)/$*.exr' -o '$(OUT)/$*.png' \
 	    --depfile '$(OUT)/.deps/$*.d' $(PROGRESS) $(FLAGS) \
-	|| { code=$$?; mkdir -p '$(OUT)/.failed' && : > '$(OUT)/.failed/$(notdir $<)'; exit $$code; }
+	|| { code=$$?; mkdir -p '$(OUT)/.failed' && echo '$<' > '$(OUT)/.failed/$(notdir $<)'; exit $$code; }
 endef
 
 $(OUT)/%.exr: $(SCENES)/%.ron $(TERRARIUM)
@@ -77,14 +84,28 @@ $(OUT)/%.exr: $(SCENES)/%.ron $(TERRARIUM)
 $(OUT)/%.exr: $(SCENES)/%.toml $(TERRARIUM)
 	$(render)
 
+ifneq ($(GALLERY),)
+$(OUT)/%.exr: $(GALLERY)/%.ron $(TERRARIUM)
+	$(render)
+
+$(OUT)/%.exr: $(GALLERY)/%.toml $(TERRARIUM)
+	$(render)
+endif
+
 # The PNG comes with the EXR; alone only if it was deleted alone.
 $(OUT)/%.png: $(OUT)/%.exr
 	@if [ ! -e '$@' ] || [ '$@' -ot '$<' ]; then \
-	    '$(TERRARIUM)' render '$(firstword $(wildcard $(SCENES)/$*.ron $(SCENES)/$*.toml))' -o '$@' \
+	    '$(TERRARIUM)' render '$(firstword $(filter %/$*.ron %/$*.toml,$(FOUND)))' -o '$@' \
 	        $(PROGRESS) $(FLAGS); fi
 
 # Which meshes, textures and included files each image depends on.
 -include $(wildcard $(OUT)/.deps/*.d)
+
+## gallery: render the pictures of docs/gallery.md that have changed, and write that page; DRAFT=1 for small ones to renders/draft, AGAIN=1 for all
+gallery: build
+	@command -v python3 >/dev/null || { echo "make gallery needs python3" >&2; exit 2; }
+	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/gallery.py \
+	    $(if $(DRAFT),--draft) $(if $(AGAIN),--again)
 
 ## test: build and run every test
 test:
@@ -130,7 +151,7 @@ STUDY = '$(TERRARIUM)' study --time $(STUDY_TIME)
 study: build
 	$(STUDY) scenes/yardstick/caustic-sphere.ron -o study/caustic-sphere --set image.width=128 --set image.height=128
 	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=240 --set image.height=135
-	$(STUDY) scenes/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
+	$(STUDY) scenes/gallery/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
 	    --knobs antialiasing,threshold,depth
 	@mkdir -p docs/images
 	@for name in caustic-sphere terrarium antialiasing; do \
@@ -151,7 +172,7 @@ install:
 
 ## clean: remove what was rendered and built
 clean:
-	@rm -rf '$(OUT)'/*.exr '$(OUT)'/*.png '$(OUT)'/.*.tmp-* '$(OUT)/.deps' '$(OUT)/.failed'
+	@rm -rf '$(OUT)'/*.exr '$(OUT)'/*.png '$(OUT)'/.*.tmp-* '$(OUT)/.deps' '$(OUT)/.failed' '$(OUT)/draft'
 	$(CARGO) clean
 
 ## help: this list

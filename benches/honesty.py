@@ -21,7 +21,8 @@ SEEDS = int(os.environ.get("SEEDS", "20"))
 SIDE = int(os.environ.get("SIDE", "128"))
 REFERENCE = int(os.environ.get("REFERENCE", "4000"))
 FOLDER = os.path.join(ROOT, "target", "honesty")
-SCENES = ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "glass.ron", "mirrors.ron", "sky.toml"]
+SCENES = ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "gallery/tumbler.ron", "gallery/reflection.ron",
+          "gallery/still_life.toml"]
 PASSES = [4, 8, 16, 64]
 TARGET = 0.02
 

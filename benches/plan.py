@@ -24,7 +24,7 @@ BEFORE = os.environ.get("BEFORE")
 
 
 def scenes():
-    found = [file for pattern in ("scenes/*.ron", "scenes/*.toml", "scenes/yardstick/*.ron")
+    found = [file for pattern in ("scenes/*.ron", "scenes/gallery/*.ron", "scenes/gallery/*.toml", "scenes/yardstick/*.ron")
              for file in sorted(glob.glob(os.path.join(ROOT, pattern)))]
     mesh = os.path.join(ROOT, "scenes", "yardstick", "heightfield.obj")
     return [file for file in found if os.path.exists(mesh) or "heightfield" not in file]
@@ -73,21 +73,21 @@ def forecast(folder, wanted):
 
 # An effect, and a scene that calls for it.
 EFFECTS = [
-    ("direct", "scenes/primitives.toml"),
-    ("shadows", "scenes/primitives.toml"),
-    ("soft_shadows", "scenes/glass.ron"),
-    ("reflection", "scenes/mirrors.ron"),
-    ("refraction", "scenes/glass.ron"),
-    ("absorption", "scenes/glass.ron"),
-    ("dispersion", "scenes/prism.ron"),
-    ("highlights", "scenes/primitives.toml"),
-    ("textures", "scenes/primitives.toml"),
-    ("normal_maps", "scenes/normal_maps.ron"),
-    ("caustics", "scenes/glass.ron"),
+    ("direct", "scenes/gallery/primitives.toml"),
+    ("shadows", "scenes/gallery/primitives.toml"),
+    ("soft_shadows", "scenes/gallery/tumbler.ron"),
+    ("reflection", "scenes/gallery/reflection.ron"),
+    ("refraction", "scenes/gallery/tumbler.ron"),
+    ("absorption", "scenes/gallery/tumbler.ron"),
+    ("dispersion", "scenes/gallery/prism.ron"),
+    ("highlights", "scenes/gallery/primitives.toml"),
+    ("textures", "scenes/gallery/primitives.toml"),
+    ("normal_maps", "scenes/gallery/normal_maps.ron"),
+    ("caustics", "scenes/gallery/tumbler.ron"),
     ("indirect", "scenes/yardstick/cornell-glass.ron"),
     ("depth_of_field", "scenes/terrarium.ron"),
-    ("environment", "scenes/sky.toml"),
-    ("antialiasing", "scenes/antialiasing.ron"),
+    ("environment", "scenes/gallery/still_life.toml"),
+    ("antialiasing", "scenes/gallery/antialiasing.ron"),
 ]
 SMALL = ["--set", "image.width=320", "--set", "image.height=180", "--passes", "4"]
 
@@ -115,7 +115,7 @@ def effects(folder, _):
         print("  The price of `off` needs an older build to compare with: BEFORE=program benches/plan.py effects")
         return
     print("Scenes that call for none of what is newer than %s, in turns" % BEFORE)
-    for scene in ("scenes/yardstick/primitives.ron", "scenes/normal_maps.ron", "scenes/primitives.toml"):
+    for scene in ("scenes/yardstick/primitives.ron", "scenes/gallery/normal_maps.ron", "scenes/gallery/primitives.toml"):
         path = os.path.join(ROOT, scene)
         took = in_turns({
             "now": render(path, stats, "--set", "photons=off"),

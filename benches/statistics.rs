@@ -10,8 +10,8 @@ use terrarium::render::{Options, Silent, render};
 const SCENES: [&str; 5] = [
     "scenes/yardstick/caustic-sphere.ron",
     "scenes/yardstick/cornell-glass.ron",
-    "scenes/mirrors.ron",
-    "scenes/sky.toml",
+    "scenes/gallery/reflection.ron",
+    "scenes/gallery/still_life.toml",
     "scenes/terrarium.ron",
 ];
 const TURNS: u32 = 7;

@@ -96,9 +96,18 @@ fn solids_are_closed_wind_outward_and_stay_within_the_glass() {
             assert!(glass.depth(p) > 0.02, "{name}: {p} is not inside the wall");
         }
     }
-    for name in ["pebble_1.obj", "pebble_2.obj"] {
-        assert_eq!(obj(name).open_edges(), 0, "{name}");
-        assert!(obj(name).volume() > 0.5, "{name}");
+    // Of the pool, 3.24² · 1.25; of the lens 2·(π h² (R − h/3)) + 0.06 π with R = 2.6, h = R − √(R² − 1).
+    for (name, least, most) in [
+        ("pebble_1.obj", 0.5, 4.0),
+        ("pebble_2.obj", 0.5, 4.0),
+        ("wine_glass.obj", 0.05, 0.2),
+        ("wine.obj", 0.12, 0.25),
+        ("lens.obj", 0.79, 0.83),
+        ("pool_water.obj", 13.0, 13.25),
+    ] {
+        let mesh = obj(name);
+        assert_eq!(mesh.open_edges(), 0, "{name}");
+        assert!((least..most).contains(&mesh.volume()), "{name}: {}", mesh.volume());
     }
 }
 

@@ -8,6 +8,7 @@ mod command_line;
 #[path = "diff/main.rs"]
 mod diff;
 mod forecast;
+mod gallery;
 mod guide;
 #[path = "hard_cases/mod.rs"]
 mod hard_cases;

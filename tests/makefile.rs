@@ -75,6 +75,29 @@ fn only_what_changed_is_rendered_again() {
 }
 
 #[test]
+fn renders_takes_the_gallery_too_unless_a_folder_is_named() {
+    let folder = folder();
+    fs::create_dir_all(folder.path().join("scenes/gallery")).expect("made");
+    let toml = fs::read_to_string(folder.path().join("scenes/b.toml")).expect("written above");
+    fs::write(folder.path().join("scenes/gallery/c.toml"), &toml).expect("written");
+    fs::write(folder.path().join("scenes/gallery/d.ron"), "(camera: 3)").expect("written");
+    let Some(run) = make(folder.path(), &["renders", "SCENES=scenes", "OUT=one"]) else { return };
+    assert!(run.status.success() && folder.path().join("one/a.png").exists(), "{}", text(&run));
+    assert!(!folder.path().join("one/c.png").exists());
+    let run = make(folder.path(), &["renders", "OUT=both"]).expect("make");
+    assert!(!run.status.success() && text(&run).contains("failed: scenes/gallery/d.ron"), "{}", text(&run));
+    assert!(folder.path().join("both/a.png").exists() && folder.path().join("both/c.exr").exists());
+
+    fs::remove_file(folder.path().join("scenes/gallery/d.ron")).expect("removed");
+    fs::remove_file(folder.path().join("both/c.png")).expect("removed");
+    let run = make(folder.path(), &["renders", "OUT=both"]).expect("make");
+    assert!(run.status.success() && folder.path().join("both/c.png").exists(), "{}", text(&run));
+    fs::write(folder.path().join("scenes/gallery/a.toml"), &toml).expect("written");
+    let run = make(folder.path(), &["renders", "OUT=third"]).expect("make");
+    assert!(!run.status.success() && text(&run).contains("would be the same image"), "{}", text(&run));
+}
+
+#[test]
 fn a_failing_scene_fails_the_batch_after_the_others_and_is_named() {
     let folder = folder();
     for name in ["0_first", "c_last"] {

@@ -13,14 +13,17 @@ pub mod erosion;
 pub mod grass;
 pub mod ground;
 pub mod image;
+pub mod lathe;
 pub mod mesh;
 pub mod noise;
 pub mod pebble;
 pub mod pine;
+pub mod pool;
 pub mod prism;
 pub mod random;
 pub mod sky;
 pub mod solid;
+pub mod sweep;
 pub mod terrain;
 pub mod textures;
 pub mod tube;
@@ -71,6 +74,11 @@ const CATALOGUE: &[(&str, Make)] = &[
     ("obj/pebble_1.obj", |_| pebble::stone(151, [1.0, 0.62, 0.8]).obj()),
     ("obj/pebble_2.obj", |_| pebble::stone(152, [0.85, 0.5, 1.0]).obj()),
     ("obj/prism.obj", |_| prism::equilateral().obj()),
+    ("obj/wine_glass.obj", |_| lathe::wine_glass().obj()),
+    ("obj/wine.obj", |_| lathe::wine().obj()),
+    ("obj/lens.obj", |_| lathe::lens().obj()),
+    ("obj/pool_water.obj", |_| pool::water().obj()),
+    ("obj/sweep.obj", |_| sweep::sweep().obj()),
     ("env/evening.exr", |_| sky::evening()),
 ];
 

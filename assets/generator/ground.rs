@@ -29,7 +29,7 @@ pub struct Top {
 
 /// The top as it is meshed; the carriers take their triangles from the same one.
 pub fn top(terrain: &Terrain) -> Top {
-    let (disc, hull) = (Disc { rings: 100 }, Solid::new(SCALE));
+    let (disc, hull) = (Disc { rings: 92 }, Solid::new(SCALE));
     let plan = disc.plan(|d| disc::rim(&hull, d, |x, z| terrain.height(x, z)));
     let positions = plan.iter().map(|&[x, z]| DVec3::new(x, terrain.height(x, z), z)).collect();
     Top { disc, positions }

@@ -33,7 +33,7 @@ impl Image {
     pub fn png(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         let size = self.size as u32;
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive)
             .write_image(self.pixels.as_flattened(), size, size, ExtendedColorType::Rgb8)
             .expect("writing to memory cannot fail");
         bytes

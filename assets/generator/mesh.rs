@@ -14,7 +14,8 @@ pub struct Group {
     pub faces: Vec<[Corner; 3]>,
 }
 
-/// A mesh in the making. Without texture coordinates the corners' second index is ignored.
+/// A mesh in the making. Without texture coordinates the corners' second index is ignored, without
+/// normals the third.
 #[derive(Default)]
 pub struct Mesh {
     pub title: &'static str,
@@ -93,9 +94,11 @@ impl Mesh {
             for face in &group.faces {
                 out.push('f');
                 for [v, t, n] in face.map(|c| c.map(|i| i + 1)) {
-                    let _ = match self.coordinates.is_empty() {
-                        true => write!(out, " {v}//{n}"),
-                        false => write!(out, " {v}/{t}/{n}"),
+                    let _ = match (self.coordinates.is_empty(), self.normals.is_empty()) {
+                        (true, true) => write!(out, " {v}"),
+                        (true, false) => write!(out, " {v}//{n}"),
+                        (false, true) => write!(out, " {v}/{t}"),
+                        (false, false) => write!(out, " {v}/{t}/{n}"),
                     };
                 }
                 out.push('\n');

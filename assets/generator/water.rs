@@ -37,7 +37,7 @@ pub fn surface(x: f64, z: f64) -> [f64; 3] {
 
 /// The water as a closed mesh, outward.
 pub fn solid() -> Mesh {
-    let (disc, hull) = (Disc { rings: 60 }, Solid::new(SCALE));
+    let (disc, hull) = (Disc { rings: 54 }, Solid::new(SCALE));
     let mut mesh = Mesh::new("water of the terrarium: closed, top waved about y = -0.36");
     mesh.normal_digits = 5;
     mesh.group("");

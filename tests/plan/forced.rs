@@ -62,13 +62,13 @@ fn assert_agree(a: &[f64], b: &[f64], what: &str) {
 fn every_scene_agrees_with_everything_forced_on() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let scenes = [
-        "scenes/antialiasing.ron",
-        "scenes/glass.ron",
-        "scenes/mirrors.ron",
-        "scenes/normal_maps.ron",
-        "scenes/prism.ron",
-        "scenes/primitives.toml",
-        "scenes/sky.toml",
+        "scenes/gallery/antialiasing.ron",
+        "scenes/gallery/tumbler.ron",
+        "scenes/gallery/reflection.ron",
+        "scenes/gallery/normal_maps.ron",
+        "scenes/gallery/prism.ron",
+        "scenes/gallery/primitives.toml",
+        "scenes/gallery/still_life.toml",
         "scenes/terrarium.ron",
         "scenes/yardstick/caustic-sphere.ron",
         "scenes/yardstick/cornell-glass.ron",

@@ -214,8 +214,7 @@ impl Reading {
                 &index,
                 &self.sources,
                 folder,
-                &named,
-                self.unread,
+                (&named, self.unread),
                 self.incomplete,
                 sound,
             );
