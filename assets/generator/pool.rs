@@ -68,16 +68,7 @@ pub fn water() -> Mesh {
 
 /// Height of the surface and its slopes along x and z.
 fn surface(x: f64, z: f64) -> [f64; 3] {
-    let mut result = [0.0; 3];
-    for [degrees, wavelength, amplitude, phase] in WAVES {
-        let (sin, cos) = super::solid::turn(degrees);
-        let k = std::f64::consts::TAU / wavelength;
-        let (wave, slope) = libm::sincos(k * (x * sin + z * cos) + phase);
-        result[0] += amplitude * wave;
-        result[1] += amplitude * k * sin * slope;
-        result[2] += amplitude * k * cos * slope;
-    }
-    result
+    super::water::waves(0.0, &WAVES, x, z)
 }
 
 fn push_normal(mesh: &mut Mesh, normal: DVec3) -> usize {

@@ -23,8 +23,13 @@ const WAVES: [[f64; 4]; 5] = [
 
 /// Height of the surface and its slopes along x and z.
 pub fn surface(x: f64, z: f64) -> [f64; 3] {
-    let mut result = [LEVEL, 0.0, 0.0];
-    for [degrees, wavelength, amplitude, phase] in WAVES {
+    waves(LEVEL, &WAVES, x, z)
+}
+
+/// The same of any waves, each by its direction in degrees, length, amplitude and phase.
+pub fn waves(level: f64, waves: &[[f64; 4]], x: f64, z: f64) -> [f64; 3] {
+    let mut result = [level, 0.0, 0.0];
+    for &[degrees, wavelength, amplitude, phase] in waves {
         let (sin, cos) = super::solid::turn(degrees);
         let k = std::f64::consts::TAU / wavelength;
         let (wave, slope) = libm::sincos(k * (x * sin + z * cos) + phase);
