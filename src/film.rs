@@ -2,34 +2,53 @@
 
 mod accuracy;
 mod brightness;
+mod kept;
+mod window;
 
 use crate::trace::{LUMINANCE, Layer, Layers, Measured, Probe, Resting, Tile};
 pub use accuracy::{Accuracy, BIAS_RATE, Part};
 use brightness::Brightness;
+pub use kept::Mismatch;
+pub use window::Window;
 
-/// All tiles of an image.
+/// All tiles of an image, or of a part of it.
 #[derive(Clone, Debug)]
 pub struct Film {
+    /// Of the whole image.
     pub width: u32,
     pub height: u32,
+    /// The pixels that are there.
+    pub window: Window,
     pub tiles: Vec<Tile>,
 }
 
 impl Film {
     /// An empty film in square tiles of `tile` pixels, in rows from the top left.
     pub fn new(width: u32, height: u32, tile: u32, layers: Layers) -> Film {
-        let tile = tile.max(1);
-        let starts = |end: u32| (0..end).step_by(tile as usize);
-        let tiles = starts(height)
-            .flat_map(|y| starts(width).map(move |x| (x, y)))
-            .map(|(x, y)| Tile::new(x, y, tile.min(width - x), tile.min(height - y), layers))
-            .collect();
-        Film { width, height, tiles }
+        Film::of(width, height, Window::all(width, height), tile, layers)
     }
 
-    /// The channels of a layer, each row by row from the top, as single-precision numbers.
+    /// The same of a window of the image.
+    pub fn of(width: u32, height: u32, window: Window, tile: u32, layers: Layers) -> Film {
+        let tile = tile.max(1);
+        let Window { x0, y0, x1, y1 } = window;
+        let starts = |start: u32, end: u32| (start..end).step_by(tile as usize);
+        let tiles = starts(y0, y1)
+            .flat_map(|y| starts(x0, x1).map(move |x| (x, y)))
+            .map(|(x, y)| Tile::new(x, y, tile.min(x1 - x), tile.min(y1 - y), layers))
+            .collect();
+        Film { width, height, window, tiles }
+    }
+
+    /// Leaves out the tiles whose number does not fulfil a condition.
+    pub fn keep_tiles(&mut self, keep: impl Fn(usize) -> bool) {
+        let mut number = 0..;
+        self.tiles.retain(|_| number.next().is_some_and(&keep));
+    }
+
+    /// The channels of a layer, each row by row from the top of the window, as single-precision numbers.
     pub fn channels(&self, layer: Layer) -> Vec<Vec<f32>> {
-        let n = self.width as usize * self.height as usize;
+        let n = self.window.pixels();
         let count = match layer {
             Layer::Depth | Layer::Object | Layer::Samples | Layer::Edges | Layer::PhotonDensity => 1,
             _ => 3,
@@ -38,7 +57,7 @@ impl Film {
         let most = self.tiles.iter().flat_map(Tile::samples_per_pass).fold(1.0, f64::max);
         for tile in &self.tiles {
             for (x, y) in tile.pixels() {
-                let at = y as usize * self.width as usize + x as usize;
+                let at = self.window.index(x, y);
                 let value = tile.value(x, y, layer, most);
                 for (channel, v) in channels.iter_mut().zip(value.to_array()) {
                     channel[at] = v as f32;
@@ -58,6 +77,17 @@ impl Film {
         Accuracy::of(self.measured(), self.probes(), &self.brightness())
     }
 
+    /// The same where passes in between are missing: what is known of how well distributed they are does not
+    /// hold, and they count as independent.
+    pub fn accuracy_of_any_passes(&self) -> Option<Accuracy> {
+        Accuracy::of_independent(self.measured(), self.probes(), &self.brightness())
+    }
+
+    /// Passes of the pixels that have the most.
+    pub fn most_passes(&self) -> u32 {
+        self.tiles.iter().flat_map(Tile::passes).max().unwrap_or(0)
+    }
+
     /// Lets those blocks of pixels rest whose own squared error is at most `enough`.
     pub fn rest(&self, accuracy: &Accuracy, enough: f64, resting: &mut Resting) {
         accuracy::done(self.measured(), self.probes(), &self.brightness(), accuracy.gain, enough, resting);
@@ -72,14 +102,14 @@ impl Film {
     }
 
     fn brightness(&self) -> Brightness {
-        let mut values = vec![0.0; self.width as usize * self.height as usize];
+        let mut values = vec![0.0; self.window.pixels()];
         for tile in &self.tiles {
             for (x, y) in tile.pixels() {
                 let value = tile.value(x, y, Layer::Radiance, 1.0).dot(LUMINANCE);
-                values[y as usize * self.width as usize + x as usize] = value as f32;
+                values[self.window.index(x, y)] = value as f32;
             }
         }
-        Brightness { width: self.width, height: self.height, values }
+        Brightness { window: self.window, values }
     }
 
     pub fn memory_bytes(&self) -> usize {

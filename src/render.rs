@@ -2,6 +2,9 @@
 
 mod clock;
 mod image;
+mod keeper;
+mod kept;
+mod merge;
 mod next;
 mod options;
 mod passes;
@@ -10,16 +13,23 @@ mod planned;
 mod prepare;
 mod prices;
 mod room;
+mod share;
 mod stats;
 mod stop;
 
 use crate::description::Loaded;
+use crate::film::Film;
 use crate::math::Rare;
 use crate::output;
 use crate::plan::Plan;
 use crate::survey::Survey;
 use crate::trace::Tally;
 use clock::Clock;
+pub use keeper::{Checkpoint, Halt};
+use keeper::Keeper;
+use kept::Form;
+pub use kept::{Part, save, write};
+pub use merge::{Merged, MergeError, merge};
 pub use next::{Factor, Next, not_seen};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
 use passes::Traced;
@@ -27,6 +37,7 @@ pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};
 pub use planned::Planned;
 use prepare::Prepared;
 pub use prices::Priced;
+pub use share::{By, Shards};
 pub use stats::{Memory, RareEvent, SceneSize, StageTime, Stats};
 use std::path::PathBuf;
 
@@ -41,6 +52,9 @@ pub struct Rendered {
     pub warnings: Vec<String>,
     /// Every asset file that was read.
     pub files: Vec<PathBuf>,
+    /// What of the image is there, and its sums: of a shard, and of a render that was stopped from outside.
+    pub part: Option<(Part, Film)>,
+    pub halted: bool,
 }
 
 /// Renders a checked scene.
@@ -75,20 +89,26 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
     let planned = ready.planned(&first, options, progress, &mut clock);
     let before = prices::first_photons(&first, &clock);
-    let traced = passes::trace(&ready, first, options, &planned, progress);
+    let mut provenance = image::provenance(loaded, &ready.plan, &planned.survey, &ready.world);
+    let camera = &ready.world.camera;
+    let assets = keeper::assets(options, &ready.files)?;
+    let shown = (loaded.scene.image.exposure_ev, loaded.scene.image.png_bits);
+    let form = Form::new(&ready.plan, options, [camera.width, camera.height], assets, shown);
+    let mut keeper = Keeper::new(options, &provenance, form);
+    let traced = passes::trace(&ready, first, &mut keeper, options, &planned, progress)?;
     clock.lap("trace");
 
     let Prepared { plan, world, mut warnings, files, .. } = ready;
-    let Traced { film, tally, photons, passes } = traced;
+    let Traced { film, tally, photons, passes, part, halted } = traced;
     warnings.extend(health_warnings(&tally, &plan));
     warnings.extend(photons.warnings(plan.max_depth));
     if options.strict {
         refuse_excesses(&tally)?;
     }
-    let image = image::assemble(&film, options);
-    let accuracy = film.accuracy();
-    let provenance =
-        image::provenance(loaded, &plan, &planned.survey, &world, &tally, &film, passes, accuracy.as_ref());
+    let image = image::assemble(&film, &options.aovs);
+    // Passes of a shard are no sample of all.
+    let accuracy = if options.shards.is_some() { None } else { film.accuracy() };
+    image::found(&mut provenance, &film, passes, &part.counts, accuracy.as_ref());
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);
     let stats = Stats::new(
@@ -103,7 +123,8 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         accuracy,
         next::not_seen(&plan),
     );
-    Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files })
+    let part = (options.shards.is_some() || halted).then_some((part, film));
+    Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files, part, halted })
 }
 
 fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {

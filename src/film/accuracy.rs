@@ -80,11 +80,30 @@ impl Accuracy {
         probes: impl Iterator<Item = &'a Probe>,
         picture: &Brightness,
     ) -> Option<Accuracy> {
+        Accuracy::by(pixels, probes, picture, false)
+    }
+
+    /// The same of passes that are as good as independent.
+    pub(super) fn of_independent<'a>(
+        pixels: impl Iterator<Item = Measured>,
+        probes: impl Iterator<Item = &'a Probe>,
+        picture: &Brightness,
+    ) -> Option<Accuracy> {
+        Accuracy::by(pixels, probes, picture, true)
+    }
+
+    fn by<'a>(
+        pixels: impl Iterator<Item = Measured>,
+        probes: impl Iterator<Item = &'a Probe>,
+        picture: &Brightness,
+        independent: bool,
+    ) -> Option<Accuracy> {
         let floor = FLOOR * picture.mean() * picture.mean();
         if !(floor > 0.0 && floor.is_finite()) {
             return None;
         }
-        let classes = Classes::of(pixels, probes, picture, floor)?;
+        let mut classes = Classes::of(pixels, probes, picture, floor)?;
+        classes.independent = independent;
         let squared = classes.squared(None);
         let e = squared.sqrt();
         let mut accuracy = classes.accuracy();

@@ -1,10 +1,11 @@
 //! How bright the picture is around a pixel: to tell rare bright paths from bright things.
 
+use super::Window;
+
 /// Mean luminance by pixel.
 #[derive(Clone, Debug)]
 pub(super) struct Brightness {
-    pub width: u32,
-    pub height: u32,
+    pub window: Window,
     pub values: Vec<f32>,
 }
 
@@ -25,9 +26,10 @@ impl Brightness {
         if own <= FAR * others {
             return 1.0;
         }
-        let near = |centre: u32, end: u32| centre.saturating_sub(1)..(centre + 2).min(end);
-        let brightest = near(y, self.height)
-            .flat_map(|v| near(x, self.width).map(move |u| (u, v)))
+        let Window { x0, y0, x1, y1 } = self.window;
+        let near = |centre: u32, start: u32, end: u32| centre.saturating_sub(1).max(start)..(centre + 2).min(end);
+        let brightest = near(y, y0, y1)
+            .flat_map(|v| near(x, x0, x1).map(move |u| (u, v)))
             .filter(|place| *place != (x, y))
             .map(|(u, v)| f64::from(self.at(u, v)))
             .fold(0.0, f64::max);
@@ -35,7 +37,7 @@ impl Brightness {
     }
 
     fn at(&self, x: u32, y: u32) -> f32 {
-        self.values[y as usize * self.width as usize + x as usize]
+        self.values[self.window.index(x, y)]
     }
 }
 
@@ -47,7 +49,7 @@ mod tests {
     fn lone_pixels_that_a_single_pass_has_made_are_not_trusted() {
         let mut values = vec![1.0; 25];
         values[12] = 50.0;
-        let picture = Brightness { width: 5, height: 5, values: values.clone() };
+        let picture = Brightness { window: Window::all(5, 5), values: values.clone() };
         assert_eq!(picture.trusted(2, 2, 1.0), 0.02);
         assert_eq!(picture.trusted(2, 2, 48.0), 1.0);
         assert_eq!(picture.trusted(0, 0, 0.0), 1.0);

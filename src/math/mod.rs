@@ -3,6 +3,7 @@
 //! Nothing here knows of light. Everything is a pure function of its arguments.
 
 mod aabb;
+mod exact;
 mod frame;
 mod health;
 pub mod lanes;
@@ -13,6 +14,7 @@ pub mod robust;
 pub mod sampling;
 
 pub use aabb::{Aabb, round_down, round_up};
+pub use exact::Exact;
 pub use frame::Frame;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 pub use health::{Health, Place, Rare};

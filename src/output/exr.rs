@@ -7,8 +7,8 @@
 
 use super::{CameraView, Image, OutputError, Provenance, Written, camera_view::Matrix};
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Layer, LayerAttributes, LineOrder,
-    SmallVec, Text, Vec2, WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, LineOrder, SmallVec, Text, Vec2, WritableImage,
 };
 use exr::{image::Blocks, image::Encoding, meta::attribute::Chromaticities, meta::attribute::Matrix4x4};
 use std::io::{Seek, Write};
@@ -32,10 +32,28 @@ pub fn write(
     image: &Image,
     provenance: &Provenance,
 ) -> Result<Written, OutputError> {
+    let (layer, written) = picture(image, provenance)?;
+    let mut file = exr::image::Image::from_layer(layer);
+    describe_picture(image, &mut file.attributes);
+    let writer = file.write();
+    if rayon::current_num_threads() == 1 {
+        writer.non_parallel().to_buffered(sink)?;
+    } else {
+        writer.to_buffered(sink)?;
+    }
+    Ok(written)
+}
+
+/// The part of the file that shows the picture.
+pub(super) fn picture(
+    image: &Image,
+    provenance: &Provenance,
+) -> Result<(Layer<AnyChannels<FlatSamples>>, Written), OutputError> {
     if let Some(defect) = image.defect() {
         return Err(OutputError::Invalid(defect));
     }
-    if i32::try_from(image.width.max(image.height)).is_err() {
+    let whole = shown(image);
+    if i32::try_from(whole.0.max(whole.1)).is_err() {
         return Err(OutputError::NotSupported("an EXR image wider or higher than 2147483647".to_string()));
     }
     let mut written = Written::default();
@@ -52,17 +70,23 @@ pub fn write(
         line_order: LineOrder::Increasing,
     };
     let size = Vec2(image.width, image.height);
-    let layer = Layer::new(size, attributes(&provenance.about(image)), encoding, AnyChannels::sort(channels));
-    let mut file = exr::image::Image::from_layer(layer);
-    file.attributes.chromaticities = Some(REC_709);
-    file.attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
-    let writer = file.write();
-    if rayon::current_num_threads() == 1 {
-        writer.non_parallel().to_buffered(sink)?;
-    } else {
-        writer.to_buffered(sink)?;
+    let mut attributes = attributes(&provenance.about(image));
+    if let Some(within) = image.within {
+        attributes.layer_position = Vec2(within.x as i32, within.y as i32);
     }
-    Ok(written)
+    Ok((Layer::new(size, attributes, encoding, AnyChannels::sort(channels)), written))
+}
+
+/// The size of the picture that the image is, or is a part of.
+fn shown(image: &Image) -> Vec2<usize> {
+    image.within.map_or(Vec2(image.width, image.height), |whole| Vec2(whole.width, whole.height))
+}
+
+/// What holds for the whole file.
+pub(super) fn describe_picture(image: &Image, attributes: &mut ImageAttributes) {
+    attributes.display_window = IntegerBounds::from_dimensions(shown(image));
+    attributes.chromaticities = Some(REC_709);
+    attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
 }
 
 /// The channel's name in the file.
@@ -118,7 +142,7 @@ fn flat(matrix: Matrix) -> Matrix4x4 {
 }
 
 /// A text attribute of UTF-8 bytes.
-fn text(text: &str) -> Text {
+pub(super) fn text(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }
 

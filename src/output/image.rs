@@ -8,7 +8,19 @@
 pub struct Image {
     pub width: usize,
     pub height: usize,
+    /// Where it lies in a larger picture, if it is a part of one.
+    pub within: Option<Within>,
     pub layers: Vec<Layer>,
+}
+
+/// The place of a part of a picture, in pixels from the top left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Within {
+    pub x: usize,
+    pub y: usize,
+    /// Of the whole picture.
+    pub width: usize,
+    pub height: usize,
 }
 
 /// Channels that belong together. The picture itself has the empty name and the channels R, G, B;
@@ -22,7 +34,7 @@ pub struct Layer {
 impl Image {
     /// An image without layers.
     pub fn new(width: usize, height: usize) -> Self {
-        Image { width, height, layers: Vec::new() }
+        Image { width, height, within: None, layers: Vec::new() }
     }
 
     /// Adds a layer from interleaved pixels, one array of `N` values a pixel.
@@ -51,6 +63,11 @@ impl Image {
     pub fn defect(&self) -> Option<String> {
         if self.width == 0 || self.height == 0 {
             return Some(format!("an image of {} × {} pixels", self.width, self.height));
+        }
+        if let Some(whole) = self.within
+            && (whole.x + self.width > whole.width || whole.y + self.height > whole.height)
+        {
+            return Some(format!("a part that reaches beyond its {} × {} pixels", whole.width, whole.height));
         }
         if self.layers.iter().all(|layer| layer.channels.is_empty()) {
             return Some("an image without channels".to_string());

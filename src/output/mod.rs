@@ -8,11 +8,12 @@ mod camera_view;
 pub mod depfile;
 pub mod exr;
 mod image;
+pub mod partial;
 pub mod png;
 mod provenance;
 pub mod srgb;
 
-pub use self::image::{Image, Layer};
+pub use self::image::{Image, Layer, Within};
 pub use camera_view::CameraView;
 pub use png::{Bits, PngSettings};
 pub use provenance::{COLOR_SPACE, Provenance, Stamp, hex};

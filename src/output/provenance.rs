@@ -44,6 +44,9 @@ pub struct Provenance {
     pub comments: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stamp: Option<Stamp>,
+    /// Of an image that is not whole: what of it is there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<Value>,
 }
 
 /// When and where: what differs from run to run.
@@ -72,6 +75,7 @@ impl Provenance {
             owner: None,
             comments: None,
             stamp: None,
+            partial: None,
         }
     }
 

@@ -1,17 +1,23 @@
 //! The film becomes the image that is written, with where it comes from.
 
-use super::{Aov, Options};
+use super::Aov;
+use super::kept::Counts;
 use crate::build::World;
 use crate::description::Loaded;
-use crate::film::{Accuracy, Film};
-use crate::math::Rare;
-use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance};
+use crate::film::{Accuracy, Film, Window};
+use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance, Within};
 use crate::plan::Plan;
 use crate::survey::Survey;
-use crate::trace::{Layer, Tally};
+use crate::trace::Layer;
+use serde_json::Value;
 
-pub(super) fn assemble(film: &Film, options: &Options) -> Image {
-    let mut image = Image::new(film.width as usize, film.height as usize);
+pub(super) fn assemble(film: &Film, aovs: &[Aov]) -> Image {
+    let window = film.window;
+    let mut image = Image::new(window.width() as usize, window.height() as usize);
+    if window != Window::all(film.width, film.height) {
+        let [x, y] = [window.x0, window.y0].map(|v| v as usize);
+        image.within = Some(Within { x, y, width: film.width as usize, height: film.height as usize });
+    }
     let mut add = |name: &str, names: &[&str], layer: Layer| {
         let channels = names.iter().map(|n| (*n).to_owned()).zip(film.channels(layer)).collect();
         image.layers.push(ImageLayer { name: name.to_owned(), channels });
@@ -19,7 +25,7 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
     const RGB: [&str; 3] = ["R", "G", "B"];
     const XYZ: [&str; 3] = ["X", "Y", "Z"];
     add("", &RGB, Layer::Radiance);
-    for aov in Aov::ALL.into_iter().filter(|aov| options.aovs.contains(aov)) {
+    for aov in Aov::ALL.into_iter().filter(|aov| aovs.contains(aov)) {
         let (channels, layer): (&[&str], Layer) = match aov {
             Aov::Albedo => (&RGB, Layer::Albedo),
             Aov::Normal => (&XYZ, Layer::Normal),
@@ -45,18 +51,8 @@ pub(super) fn assemble(film: &Film, options: &Options) -> Image {
 }
 
 /// All of it follows from the scene, the seed and the program: no times, no machine.
-#[expect(clippy::too_many_arguments, reason = "all that an image says of its making")]
-pub(super) fn provenance(
-    loaded: &Loaded,
-    plan: &Plan,
-    survey: &Survey,
-    world: &World,
-    tally: &Tally,
-    film: &Film,
-    passes: u32,
-    accuracy: Option<&Accuracy>,
-) -> Provenance {
-    let mut provenance = Provenance::new(&loaded.hash, plan.seed, passes);
+pub(super) fn provenance(loaded: &Loaded, plan: &Plan, survey: &Survey, world: &World) -> Provenance {
+    let mut provenance = Provenance::new(&loaded.hash, plan.seed, plan.passes);
     provenance.plan = survey.text() + &plan.overridden();
     let camera = &world.camera;
     provenance.camera = Some(CameraView {
@@ -71,14 +67,42 @@ pub(super) fn provenance(
     });
     // 0 is no object.
     provenance.objects = (1..).zip(world.object_names.iter().cloned()).collect();
+    provenance
+}
+
+/// What was found, added to where it comes from.
+pub(super) fn found(
+    provenance: &mut Provenance,
+    film: &Film,
+    passes: u32,
+    counts: &Counts,
+    accuracy: Option<&Accuracy>,
+) {
+    provenance.passes = passes;
     let stats = &mut provenance.stats;
-    if let Some(accuracy) = accuracy.and_then(|accuracy| serde_json::to_value(accuracy).ok()) {
+    if let Some(mut accuracy) = accuracy.and_then(|accuracy| serde_json::to_value(accuracy).ok()) {
+        shorten(&mut accuracy);
         stats.insert("accuracy".to_owned(), accuracy);
     }
     stats.insert("samples".to_owned(), film.samples().into());
     // Whether, not how many: a corner that tiles share is counted in each of them, and the size of
     // tiles must not show in the file.
-    stats.insert("pathsCut".to_owned(), (tally.cut.paths > 0).into());
-    stats.insert("samplesDropped".to_owned(), (tally.health.of(Rare::NonFiniteSample) > 0).into());
-    provenance
+    stats.insert("pathsCut".to_owned(), (counts.cut_paths > 0).into());
+    stats.insert("samplesDropped".to_owned(), (counts.dropped > 0).into());
+}
+
+/// Leaves five digits of every number: more are not known of an error, and the last ones depend on where
+/// passes were summed up.
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Number(number) => {
+            if let Some(x) = number.as_f64().filter(|x| x.fract() != 0.0) {
+                let short = format!("{x:.4e}").parse::<f64>().unwrap_or(x);
+                *value = short.into();
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(shorten),
+        Value::Object(map) => map.values_mut().for_each(shorten),
+        _ => {}
+    }
 }

@@ -1,7 +1,8 @@
 //! What a caller asks of a render beyond the scene, and what it may be told.
 
-use super::Planned;
+use super::{Checkpoint, Halt, Planned, Shards};
 use crate::build::BuildError;
+use crate::film::Window;
 use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request, Until};
 use crate::trace::{Probes, Wants};
 use std::ops::Range;
@@ -34,6 +35,13 @@ pub struct Options {
     pub untold: bool,
     /// The most bytes that the image may take; without it, what the machine has.
     pub memory: Option<u64>,
+    /// The pixels that are rendered; without it, all.
+    pub crop: Option<Window>,
+    /// The part of the work that is done here; without it, all.
+    pub shards: Option<Shards>,
+    pub checkpoint: Option<Checkpoint>,
+    /// Told from outside to stop: what is there by then becomes the image.
+    pub halt: Option<Halt>,
 }
 
 impl Default for Options {
@@ -50,6 +58,10 @@ impl Default for Options {
             strict: false,
             untold: false,
             memory: None,
+            crop: None,
+            shards: None,
+            checkpoint: None,
+            halt: None,
         }
     }
 }
@@ -181,6 +193,9 @@ impl Options {
                 "the `edges` layer shows where adaptive antialiasing went: it needs `antialiasing: adaptive()`"
                     .to_owned(),
             ));
+        }
+        if let Some(shards) = &self.shards {
+            shards.check(plan)?;
         }
         if self.threads == Some(0) || self.tile == 0 {
             return Err(RenderError::Invalid("threads and tile size must be 1 or more".to_owned()));

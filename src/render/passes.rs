@@ -1,9 +1,12 @@
 //! Pass after pass, until the plan's last or until a rule says that it is enough.
 
+use super::keeper::Keeper;
+use super::kept::{Counts, Part};
 use super::photons::{AllPhotons, PassMaps};
 use super::prepare::Prepared;
+use super::share::Steps;
 use super::stop::Stop;
-use super::{Options, Planned, Progress};
+use super::{Options, Planned, Progress, RenderError};
 use crate::film::Film;
 use crate::trace::{self, Tally, Tracer};
 use rayon::prelude::*;
@@ -20,61 +23,117 @@ pub(super) struct Traced {
     pub film: Film,
     pub tally: Tally,
     pub photons: AllPhotons,
-    /// Passes that were traced.
+    /// Passes that were traced, now and before.
     pub passes: u32,
+    /// What of the image is there.
+    pub part: Part,
+    /// Whether it was stopped from outside.
+    pub halted: bool,
 }
 
 pub(super) fn trace(
     ready: &Prepared,
     first: PassMaps,
+    keeper: &mut Keeper,
     options: &Options,
     planned: &Planned,
     progress: &dyn Progress,
-) -> Traced {
-    let Prepared { plan, world, wants, stages, .. } = ready;
-    let mut film = Film::new(world.camera.width, world.camera.height, options.tile, trace::layers(wants));
+) -> Result<Traced, RenderError> {
+    let Prepared { plan, world, stages, .. } = ready;
+    let resumed = keeper.resume(progress)?;
+    let mut stop = Stop::new(plan, options, &keeper.film());
+    let (mut film, begin, mut done) = match resumed {
+        Some(resumed) => {
+            resumed.part.stop.iter().for_each(|state| stop.resume(state));
+            (resumed.film, resumed.begin, resumed.done)
+        }
+        None => (keeper.film(), plan.first_pass, 0),
+    };
+    let stretches = match &options.shards {
+        Some(shards) => shards.passes(plan),
+        None => std::iter::once(plan.first_pass..plan.first_pass + plan.passes).collect(),
+    };
+    let batch = if stages.one_map() && !plan.until.is_any() { BATCH } else { 1 };
+    let mut steps = Steps::new(stretches, batch, begin);
     let mut tally = Tally::default();
     let mut photons = stages.stats(world);
-    let mut stop = Stop::new(plan, options, &film);
-    progress.start("trace", film.tiles.len() as u64 * u64::from(planned.passes), "tiles");
-    let last = plan.first_pass + plan.passes;
-    let batch = if stages.one_map() && !plan.until.is_any() { BATCH } else { 1 };
+    let tiles = film.tiles.len() as u64;
+    let left: u64 = steps.passes().min(planned.passes.into());
+    progress.start("trace", tiles * (u64::from(done) + left), "tiles");
+    progress.advance(tiles * u64::from(done));
     let mut maps = first;
-    let mut begin = plan.first_pass;
-    while begin < last {
-        let passes: Range<u32> = begin..(begin + batch).min(last);
-        if !stages.one_map() || begin == plan.first_pass {
-            stages.count(&mut photons, &mut tally.health, &maps);
+    let mut of = plan.first_pass;
+    let (mut at, mut counted, mut halted) = (begin, false, false);
+    while let Some(step) = steps.next() {
+        at = step.start;
+        if !stages.one_map() && of != step.start {
+            (maps, of, counted) = (stages.pass(world, step.start), step.start, false);
         }
-        let tracer = Tracer { resting: stop.resting(), ..ready.tracer(&maps) };
-        let stop_here = &stop;
-        let trace = || -> Vec<Tally> {
-            film.tiles
-                .par_iter_mut()
-                .filter_map(|tile| {
-                    if stop_here.is_late() {
-                        return None;
-                    }
-                    let tally = trace::passes(&tracer, passes.clone(), tile, TIMED);
-                    progress.advance(u64::from(passes.end - passes.start));
-                    Some(tally)
-                })
-                .collect()
-        };
+        if !counted {
+            stages.count(&mut photons, &mut tally.health, &maps);
+            counted = true;
+        }
         // The next pass's photons are scattered beside this pass's tiles.
-        let another = !stages.one_map() && passes.end < last && stop.allows_another();
-        let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(world, passes.end)));
-        tallies.iter().for_each(|t| tally.add(t));
-        begin = passes.end;
-        if stop.now(begin - plan.first_pass, &film, progress) {
+        let next = steps.peek().filter(|_| !stages.one_map() && stop.allows_another());
+        let mut upcoming = None;
+        loop {
+            let tracer = Tracer { resting: stop.resting(), ..ready.tracer(&maps) };
+            let waits = || stop.is_late() || keeper.pauses();
+            let scatter = || next.filter(|_| upcoming.is_none()).map(|pass| (stages.pass(world, pass), pass));
+            let (tallies, scattered) =
+                rayon::join(|| tiles_of(&mut film, &tracer, &step, &waits, progress), scatter);
+            upcoming = scattered.or(upcoming);
+            tallies.iter().for_each(|t| tally.add(t));
+            if keeper.halted() || stop.is_late() || film.tiles.iter().all(|tile| tile.next >= step.end) {
+                break;
+            }
+            let part = keeper.part(at, done, Counts::of(&tally), Some(&stop));
+            keeper.save(&film, &part, progress);
+        }
+        let unfinished = film.tiles.iter().any(|tile| tile.next < step.end);
+        halted = keeper.halted() && (unfinished || steps.peek().is_some());
+        if halted && unfinished {
             break;
         }
-        maps = match next {
-            Some(maps) => maps,
-            None if stages.one_map() || begin == last => maps,
-            None => stages.pass(world, begin),
-        };
+        (at, done) = (step.end, done + (step.end - step.start));
+        if let Some((upcoming, pass)) = upcoming {
+            (maps, of, counted) = (upcoming, pass, false);
+        }
+        if halted || stop.now(done, &film, progress) {
+            break;
+        }
+        if keeper.pauses() {
+            let part = keeper.part(at, done, Counts::of(&tally), Some(&stop));
+            keeper.save(&film, &part, progress);
+        }
     }
     progress.finish();
-    Traced { film, tally, photons, passes: begin - plan.first_pass }
+    let part = keeper.part(at, done, Counts::of(&tally), halted.then_some(&stop));
+    if halted {
+        keeper.save(&film, &part, progress);
+    }
+    Ok(Traced { film, tally, photons, passes: done, part, halted })
+}
+
+/// Traces those of a step's passes that tiles have not yet, unless they have to wait.
+fn tiles_of(
+    film: &mut Film,
+    tracer: &Tracer,
+    step: &Range<u32>,
+    waits: &(impl Fn() -> bool + Sync),
+    progress: &dyn Progress,
+) -> Vec<Tally> {
+    film.tiles
+        .par_iter_mut()
+        .filter_map(|tile| {
+            let passes = tile.next.max(step.start)..step.end;
+            if passes.is_empty() || waits() {
+                return None;
+            }
+            let count = u64::from(passes.end - passes.start);
+            let tally = trace::passes(tracer, passes, tile, TIMED);
+            progress.advance(count);
+            Some(tally)
+        })
+        .collect()
 }

@@ -12,6 +12,7 @@ use super::{Options, Progress};
 use crate::film::Film;
 use crate::plan::{FEWEST, Plan, Until};
 use crate::trace::Resting;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 pub(super) struct Stop {
@@ -34,10 +35,35 @@ const SETTLED: f64 = 0.5;
 /// Seconds kept for writing the images: at the least, and by value of the image.
 const WRITING: (f64, f64) = (0.02, 60e-9);
 
+/// What a render that goes on later has to know.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct StopState {
+    check_at: u32,
+    /// Blocks that rest.
+    resting: Vec<usize>,
+}
+
 impl Stop {
+    /// As it has to be known later; `None` where it has not.
+    pub fn state(&self) -> Option<StopState> {
+        let blocks = self.resting.as_ref()?.blocks();
+        let resting = (0..blocks.len()).filter(|block| blocks[*block]).collect();
+        Some(StopState { check_at: self.check_at, resting })
+    }
+
+    /// Goes on where another run stopped.
+    pub fn resume(&mut self, state: &StopState) {
+        self.check_at = state.check_at;
+        if let Some(resting) = &mut self.resting {
+            let blocks = resting.blocks().len();
+            state.resting.iter().filter(|block| **block < blocks).for_each(|block| resting.rest(*block));
+        }
+    }
+
     pub fn new(plan: &Plan, options: &Options, film: &Film) -> Stop {
         let now = Instant::now();
-        let values = f64::from(film.width) * f64::from(film.height) * (3 + 3 * options.aovs.len()) as f64;
+        let values = film.window.pixels() as f64 * (3 + 3 * options.aovs.len()) as f64;
         let deadline = plan.until.seconds.map(|seconds| {
             let left = (seconds - WRITING.0 - WRITING.1 * values).max(0.0);
             options.began.unwrap_or(now) + Duration::from_secs_f64(left)

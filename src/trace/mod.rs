@@ -15,13 +15,14 @@ mod resting;
 mod sample;
 mod tile;
 mod watch;
+mod words;
 
 use crate::build::World;
 use crate::index::Caustics;
 use crate::math::{Health, Vec3};
 use crate::plan::Plan;
 pub use path::Scratch;
-pub use probe::{Kind, LUMINANCE, Probe, Probes};
+pub use probe::{Kind, LUMINANCE, Parts, Probe, Probes};
 pub use reference_level::reference_level;
 pub use resting::Resting;
 pub use sample::{Sample, Wants};
@@ -29,6 +30,7 @@ use serde::Serialize;
 use std::time::Instant;
 pub use tile::{Layer, Layers, Measured, PixelValue, Tile};
 pub use watch::{Part, Spent, Watch};
+pub use words::{Reader, Words};
 
 /// Rays by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -110,6 +112,7 @@ pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile, ti
     let mut tally = Tally { watch: Watch::new(timed), ..Tally::default() };
     let mut scratch = Scratch::new(tracer);
     for pass in passes {
+        tile.begin(pass);
         antialias::pass(tracer, pass, tile, &mut scratch, &mut tally);
     }
     tally.watch.end();
@@ -126,5 +129,6 @@ pub fn layers(wants: &Wants) -> Layers {
         photons: wants.photons,
         bias: wants.bias,
         probes: wants.probes,
+        parts: Parts::Growing,
     }
 }

@@ -5,6 +5,7 @@
 //! blur does to it, and how two samples of one place differ.
 
 use super::PixelValue;
+use super::words::record;
 use crate::math::random::{combine, mix};
 use crate::math::{DVec3, Vec3};
 
@@ -66,26 +67,48 @@ impl Kind {
     pub const ALL: [Kind; 3] = [Kind::Rest, Kind::Caustic, Kind::Indirect];
 }
 
-/// One pixel's statistics.
-#[derive(Clone, Copy, Debug, Default)]
+/// How passes are divided into the parts that are compared with each other: the first quarter or so of them, as
+/// much again, and the later half. The first two together are the largest power of two below their number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parts {
+    /// Their number is not known: parts grow as passes come, one after the other.
+    #[default]
+    Growing,
+    /// So many in all, from number `first` on, in any order.
+    Of { first: u32, passes: u32 },
+}
+
+/// One of the three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part(usize);
+
+impl Parts {
+    /// The part of a pass; `None` where it is the latest.
+    pub fn of(self, pass: u32) -> Option<Part> {
+        let Parts::Of { first, passes } = self else { return None };
+        let half = if passes < 2 { 0 } else { passes.div_ceil(2).next_power_of_two() };
+        let n = pass.saturating_sub(first);
+        Some(Part(usize::from(n >= half / 2) + usize::from(n >= half)))
+    }
+}
+
+/// One pixel's statistics. The first two parts of the passes are called its first half.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Probe {
     pub x: u32,
     pub y: u32,
-    /// Passes so far, and those of them that the first part holds: a power of two.
-    pub passes: u32,
-    pub part: u32,
-    /// Sums by kind.
-    sums: [DVec3; 3],
+    /// Passes by part.
+    counts: [u32; 3],
+    /// Sums of the rest by part.
+    rest: [DVec3; 3],
+    /// Of caustic and of indirect light.
+    photons: [DVec3; 2],
     /// Σ (x − mean)² over passes by kind, by Welford's recurrence.
     squares: [Vec3; 3],
-    /// Of the rest: its mean over the first part; and (mean of the part before − mean of the part)² from when
-    /// the part was closed.
-    first: Vec3,
-    closed: Vec3,
     /// Of all light: the luminance of the brightest pass.
     brightest: f32,
     /// Sums of the estimated bias of caustic and indirect light, of passes that looked at it; of the first
-    /// part, and of what came later.
+    /// half, and of what came later.
     bias: [[Vec3; 2]; 2],
     looked: [u32; 2],
     /// Σ ½ (a − b)² of the rest over pairs of samples at one place.
@@ -93,24 +116,29 @@ pub struct Probe {
     paired: u32,
 }
 
+record!(Probe, x, y, counts, rest, photons, squares, brightest, bias, looked, pairs, paired);
+
 impl Probe {
-    pub(super) fn add(&mut self, x: u32, y: u32, value: &PixelValue) {
+    pub(super) fn add(&mut self, x: u32, y: u32, value: &PixelValue, part: Option<Part>) {
         (self.x, self.y) = (x, y);
         // A power of two is full: what comes now is its second half.
-        if self.passes.is_power_of_two() {
+        if part.is_none() && self.passes().is_power_of_two() {
             self.close();
         }
+        let part = part.map_or(2, |Part(part)| part);
         self.brightest = self.brightest.max(value.radiance.dot(LUMINANCE) as f32);
         let rest = value.radiance - value.caustic - value.indirect;
-        let n = f64::from(self.passes);
-        for (i, light) in [rest, value.caustic, value.indirect].into_iter().enumerate() {
-            let old = if self.passes == 0 { DVec3::ZERO } else { self.sums[i] / n };
-            self.sums[i] += light;
-            self.squares[i] += ((light - old) * (light - self.sums[i] / (n + 1.0))).as_vec3();
+        let n = f64::from(self.passes());
+        for (kind, light) in Kind::ALL.into_iter().zip([rest, value.caustic, value.indirect]) {
+            let off = if n == 0.0 { DVec3::ZERO } else { light - self.mean(kind) };
+            self.squares[kind as usize] += (off * off * (n / (n + 1.0))).as_vec3();
         }
-        self.passes += 1;
+        self.rest[part] += rest;
+        self.photons[0] += value.caustic;
+        self.photons[1] += value.indirect;
+        self.counts[part] += 1;
         if let Some(bias) = value.bias {
-            let half = usize::from(self.part > 0 && self.passes > self.part);
+            let half = part / 2;
             self.looked[half] += 1;
             self.bias[half][0] += bias[0].as_vec3();
             self.bias[half][1] += bias[1].as_vec3();
@@ -121,21 +149,63 @@ impl Probe {
         }
     }
 
-    /// All passes so far become the first part.
+    /// All passes so far become the first half.
     fn close(&mut self) {
-        if self.part > 0 {
-            self.closed = self.change().as_vec3();
-        }
-        self.part = self.passes;
-        self.first = self.mean(Kind::Rest).as_vec3();
+        let [first, second, later] = self.rest;
+        self.rest = [first + second, later, DVec3::ZERO];
+        let [first, second, later] = self.counts;
+        self.counts = [first + second, later, 0];
         let both = |i: usize| self.bias[0][i] + self.bias[1][i];
         self.bias = [[both(0), both(1)], [Vec3::ZERO; 2]];
         self.looked = [self.looked[0] + self.looked[1], 0];
     }
 
+    /// With the passes of the same probe that were added elsewhere, divided into the same parts.
+    pub(super) fn join(&mut self, other: &Probe) {
+        if other.passes() == 0 {
+            return;
+        }
+        let (mine, theirs) = (f64::from(self.passes()), f64::from(other.passes()));
+        for kind in Kind::ALL {
+            // Chan, Golub & LeVeque 1979, eq. 2.1.
+            let off = if mine == 0.0 { DVec3::ZERO } else { other.mean(kind) - self.mean(kind) };
+            let between = off * off * (mine * theirs / (mine + theirs));
+            self.squares[kind as usize] += other.squares[kind as usize] + between.as_vec3();
+        }
+        (self.x, self.y) = (other.x, other.y);
+        for part in 0..3 {
+            self.rest[part] += other.rest[part];
+            self.counts[part] += other.counts[part];
+        }
+        for i in 0..2 {
+            self.photons[i] += other.photons[i];
+            self.looked[i] += other.looked[i];
+            self.bias[i][0] += other.bias[i][0];
+            self.bias[i][1] += other.bias[i][1];
+        }
+        self.brightest = self.brightest.max(other.brightest);
+        self.pairs += other.pairs;
+        self.paired += other.paired;
+    }
+
+    /// Passes so far.
+    pub fn passes(&self) -> u32 {
+        self.counts.iter().sum()
+    }
+
+    /// Passes of the first half: a power of two.
+    pub fn first_half(&self) -> u32 {
+        self.counts[0] + self.counts[1]
+    }
+
     /// The mean of a kind of light over all passes.
     pub fn mean(&self, kind: Kind) -> DVec3 {
-        self.sums[kind as usize] / f64::from(self.passes.max(1))
+        let sum = match kind {
+            Kind::Rest => self.rest.iter().sum(),
+            Kind::Caustic => self.photons[0],
+            Kind::Indirect => self.photons[1],
+        };
+        sum / f64::from(self.passes().max(1))
     }
 
     /// Of all light.
@@ -145,24 +215,31 @@ impl Probe {
 
     /// Mean luminance without the brightest pass.
     pub fn others(&self) -> f64 {
-        let sum = self.mean_of_all().dot(LUMINANCE) * f64::from(self.passes);
-        (sum - f64::from(self.brightest)) / f64::from(self.passes.max(2) - 1)
+        let passes = self.passes();
+        let sum = self.mean_of_all().dot(LUMINANCE) * f64::from(passes);
+        (sum - f64::from(self.brightest)) / f64::from(passes.max(2) - 1)
     }
 
     /// The variance of a kind of light from pass to pass; 0 of one pass.
     pub fn variance(&self, kind: Kind) -> DVec3 {
-        self.squares[kind as usize].as_dvec3() / f64::from(self.passes.max(2) - 1)
+        self.squares[kind as usize].as_dvec3() / f64::from(self.passes().max(2) - 1)
     }
 
-    /// Of the rest: (mean of the first part − mean of all)².
+    /// Of the rest: (mean of the first half − mean of all)².
     pub fn change(&self) -> DVec3 {
-        let change = self.mean(Kind::Rest) - self.first.as_dvec3();
+        let half = (self.rest[0] + self.rest[1]) / f64::from(self.first_half().max(1));
+        let change = self.mean(Kind::Rest) - half;
         change * change
     }
 
-    /// The same when half of the first part was compared with the whole of it.
+    /// The same of the first half and its own first half.
     pub fn change_before(&self) -> DVec3 {
-        self.closed.as_dvec3()
+        if self.counts[0] == 0 {
+            return DVec3::ZERO;
+        }
+        let half = (self.rest[0] + self.rest[1]) / f64::from(self.first_half());
+        let change = self.rest[0] / f64::from(self.counts[0]) - half;
+        change * change
     }
 
     /// Estimates of the bias of caustic and of indirect light, from the first part of the passes and from the
@@ -184,6 +261,7 @@ impl Probe {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::random::unit;
 
     #[test]
     fn every_whole_square_has_one_probe() {
@@ -202,7 +280,7 @@ mod tests {
         for v in values {
             let bias = Some([DVec3::splat(v), DVec3::ZERO]);
             let value = PixelValue { radiance: DVec3::splat(v), bias, ..PixelValue::default() };
-            probe.add(3, 4, &value);
+            probe.add(3, 4, &value, None);
         }
         probe
     }
@@ -211,14 +289,39 @@ mod tests {
     #[test]
     fn parts_are_powers_of_two() {
         let four = probe([1.0, 3.0, 4.0, 6.0]);
-        assert_eq!((four.passes, four.part), (4, 2));
+        assert_eq!((four.passes(), four.first_half()), (4, 2));
         assert_eq!(four.change().x, 1.5 * 1.5);
         assert_eq!(four.change_before().x, 1.0);
         assert_eq!(four.biases().map(|b| b.map(|[caustic, _]| caustic.x)), Some([2.0, 5.0]));
         assert!((four.variance(Kind::Rest).x - 13.0 / 3.0).abs() < 1e-6);
         let six = probe([1.0, 3.0, 4.0, 6.0, 0.0, 1.0]);
-        assert_eq!((six.passes, six.part), (6, 4));
+        assert_eq!((six.passes(), six.first_half()), (6, 4));
         assert!((six.change().x - 1.0).abs() < 1e-12);
         assert_eq!(six.change_before().x, 1.5 * 1.5);
+    }
+
+    #[test]
+    fn parts_that_are_known_before_are_those_that_grow() {
+        for n in 1..40u32 {
+            let value = |i: u32| unit(mix(u64::from(i)));
+            let grown = probe((0..n).map(value));
+            let parts = Parts::Of { first: 5, passes: n };
+            let mut joined = Probe::default();
+            for share in 0..3 {
+                let mut part = Probe::default();
+                for i in (0..n).filter(|i| i % 3 == share) {
+                    let bias = Some([DVec3::splat(value(i)), DVec3::ZERO]);
+                    let value = PixelValue { radiance: DVec3::splat(value(i)), bias, ..PixelValue::default() };
+                    part.add(3, 4, &value, parts.of(5 + i));
+                }
+                joined.join(&part);
+            }
+            assert_eq!((joined.counts, joined.looked), (grown.counts, grown.looked), "{n}");
+            let same = |a: DVec3, b: DVec3| assert!((a - b).abs().max_element() < 1e-6, "{n}: {a} {b}");
+            same(joined.change(), grown.change());
+            same(joined.change_before(), grown.change_before());
+            same(joined.variance(Kind::Rest), grown.variance(Kind::Rest));
+            same(DVec3::splat(joined.others()), DVec3::splat(grown.others()));
+        }
     }
 }

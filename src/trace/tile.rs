@@ -1,12 +1,14 @@
 //! A tile: a rectangle of pixels with what the passes sum up to.
 //!
 //! Each tile has its own sums, so that tiles are worked on side by side and nothing is shared. Sums
-//! are double precision and taken in the order of the passes: the size of the tiles and the number
-//! of threads change nothing.
+//! are exact: the size of the tiles, the number of threads, and which passes were summed up where
+//! change nothing.
+
+mod sums;
 
 use super::probe::LUMINANCE;
-use super::{Probe, Probes};
-use crate::math::{DVec3, Vec3};
+use super::{Parts, Probe, Probes};
+use crate::math::{DVec3, Exact, Vec3};
 
 /// A pixel's value in one pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,31 +44,35 @@ pub struct Layers {
     pub photons: bool,
     pub bias: bool,
     pub probes: Option<Probes>,
+    pub parts: Parts,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct FirstHitSums {
-    albedo: DVec3,
-    normal: DVec3,
-    position: DVec3,
-    depth: f64,
+    albedo: Exact,
+    normal: Exact,
+    position: Exact,
+    /// In x.
+    depth: Exact,
+    /// Of the first pass.
     object: u32,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct SplitSums {
-    direct: DVec3,
-    reflection: DVec3,
-    refraction: DVec3,
-    caustic: DVec3,
-    indirect: DVec3,
+    direct: Exact,
+    reflection: Exact,
+    refraction: Exact,
+    caustic: Exact,
+    indirect: Exact,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct PhotonSums {
     /// Of the first pass.
     dots: DVec3,
-    density: f64,
+    /// In x.
+    density: Exact,
 }
 
 /// What a pixel keeps for the picture's error.
@@ -96,7 +102,12 @@ pub struct Tile {
     pub y: u32,
     pub width: u32,
     pub height: u32,
-    radiance: Vec<DVec3>,
+    /// The number after that of the last pass that was added.
+    pub next: u32,
+    /// The pass that is being added.
+    pass: u32,
+    parts: Parts,
+    radiance: Vec<Exact>,
     passes: Vec<u32>,
     samples: Vec<u32>,
     split: Vec<SplitSums>,
@@ -107,7 +118,7 @@ pub struct Tile {
     /// For the picture's error: Σ (x − mean)² by channel, and the luminance of the brightest pass.
     spread: Vec<Spread>,
     /// Sums of the estimated bias, and of the passes that looked at it.
-    bias: Vec<(DVec3, u32)>,
+    bias: Vec<(Exact, u32)>,
     /// One a square; empty where a square's probe is another tile's.
     probes: Vec<Probe>,
     placed: Option<Probes>,
@@ -129,7 +140,10 @@ impl Tile {
             y,
             width,
             height,
-            radiance: vec![DVec3::ZERO; n],
+            next: 0,
+            pass: 0,
+            parts: layers.parts,
+            radiance: vec![Exact::default(); n],
             passes: vec![0; n],
             samples: vec![0; n],
             split: vec![SplitSums::default(); if_kept(layers.split)],
@@ -137,7 +151,7 @@ impl Tile {
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
             photons: vec![PhotonSums::default(); if_kept(layers.photons)],
             spread: vec![Spread::default(); if_kept(layers.probes.is_some())],
-            bias: vec![(DVec3::ZERO, 0); if_kept(layers.bias)],
+            bias: vec![(Exact::default(), 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
         }
@@ -155,7 +169,13 @@ impl Tile {
 
     /// The statistics of the tile's probes that have passes.
     pub fn probes(&self) -> impl Iterator<Item = &Probe> {
-        self.probes.iter().filter(|probe| probe.passes > 0)
+        self.probes.iter().filter(|probe| probe.passes() > 0)
+    }
+
+    /// Values that are added from now on are those of a pass.
+    pub fn begin(&mut self, pass: u32) {
+        self.pass = pass;
+        self.next = pass + 1;
     }
 
     /// Adds a pass's value to a pixel of the tile, given in image coordinates.
@@ -163,7 +183,7 @@ impl Tile {
         let i = self.index(x, y);
         let before = f64::from(self.passes[i]);
         // Welford 1962: M₂ += (x − old mean)·(x − new mean) = (x − old mean)²·n/(n + 1).
-        let off = if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i] / before };
+        let off = if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i].value() / before };
         let square = off * off * (before / (before + 1.0));
         if let Some(squares) = self.squares.get_mut(i) {
             *squares += square;
@@ -172,35 +192,35 @@ impl Tile {
             spread.squares += square.as_vec3();
             spread.brightest = spread.brightest.max(value.radiance.dot(LUMINANCE) as f32);
         }
-        self.radiance[i] += value.radiance;
+        self.radiance[i].add(value.radiance);
         self.passes[i] += 1;
         self.samples[i] = self.samples[i].saturating_add(value.samples);
         if let Some(placed) = self.placed.filter(|placed| placed.is_probe(x, y)) {
             let slot = placed.slot([x, y], [self.x, self.y], self.width);
-            self.probes[slot].add(x, y, value);
+            self.probes[slot].add(x, y, value, self.parts.of(self.pass));
         }
         if let (Some((sum, looked)), Some([caustic, indirect])) = (self.bias.get_mut(i), value.bias) {
-            *sum += caustic + indirect;
+            sum.add(caustic + indirect);
             *looked += 1;
         }
         if let Some(split) = self.split.get_mut(i) {
-            split.direct += value.direct;
-            split.reflection += value.reflection;
-            split.refraction += value.refraction;
-            split.caustic += value.caustic;
-            split.indirect += value.indirect;
+            split.direct.add(value.direct);
+            split.reflection.add(value.reflection);
+            split.refraction.add(value.refraction);
+            split.caustic.add(value.caustic);
+            split.indirect.add(value.indirect);
         }
         if let Some(photons) = self.photons.get_mut(i) {
-            photons.density += value.photon_density;
+            photons.density.add(DVec3::X * value.photon_density);
             if before == 0.0 {
                 photons.dots = value.photons;
             }
         }
         if let Some(first) = self.first.get_mut(i) {
-            first.albedo += value.albedo;
-            first.normal += value.normal;
-            first.position += value.position;
-            first.depth += value.depth;
+            first.albedo.add(value.albedo);
+            first.normal.add(value.normal);
+            first.position.add(value.position);
+            first.depth.add(DVec3::X * value.depth);
             if before == 0.0 {
                 first.object = value.object;
             }
@@ -246,13 +266,13 @@ impl Tile {
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.radiance.len() * (size_of::<DVec3>() + 2 * size_of::<u32>())
+        self.radiance.len() * (size_of::<Exact>() + 2 * size_of::<u32>())
             + self.split.len() * size_of::<SplitSums>()
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
             + self.photons.len() * size_of::<PhotonSums>()
             + self.spread.len() * size_of::<Spread>()
-            + self.bias.len() * size_of::<(DVec3, u32)>()
+            + self.bias.len() * size_of::<(Exact, u32)>()
             + self.probes.len() * size_of::<Probe>()
     }
 
@@ -261,13 +281,19 @@ impl Tile {
         self.samples.iter().zip(&self.passes).map(|(&s, &p)| f64::from(s) / f64::from(p.max(1)))
     }
 
+    /// Of each pixel.
+    pub fn passes(&self) -> impl Iterator<Item = u32> {
+        self.passes.iter().copied()
+    }
+
     /// Of pixels with two passes or more.
     pub fn measured(&self) -> impl Iterator<Item = Measured> {
         let of = |(i, spread): (usize, &Spread)| {
             let passes = self.passes[i];
-            let mean = self.radiance[i] / f64::from(passes);
+            let sum = self.radiance[i].value();
+            let mean = sum / f64::from(passes);
             let others =
-                (self.radiance[i].dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
+                (sum.dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
             let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
             let (x, y) = (self.x + i as u32 % self.width, self.y + i as u32 / self.width);
             Measured { x, y, passes, mean, variance, others }
@@ -284,14 +310,14 @@ impl Tile {
         let split = || self.split.get(i).copied().unwrap_or_default();
         let photons = || self.photons.get(i).copied().unwrap_or_default();
         match layer {
-            Layer::Radiance => self.radiance[i] / passes,
-            Layer::Direct => split().direct / passes,
-            Layer::Reflection => split().reflection / passes,
-            Layer::Refraction => split().refraction / passes,
-            Layer::Caustic => split().caustic / passes,
-            Layer::Indirect => split().indirect / passes,
+            Layer::Radiance => self.radiance[i].value() / passes,
+            Layer::Direct => split().direct.value() / passes,
+            Layer::Reflection => split().reflection.value() / passes,
+            Layer::Refraction => split().refraction.value() / passes,
+            Layer::Caustic => split().caustic.value() / passes,
+            Layer::Indirect => split().indirect.value() / passes,
             Layer::Photons => photons().dots,
-            Layer::PhotonDensity => DVec3::splat(photons().density / passes),
+            Layer::PhotonDensity => DVec3::splat(photons().density.value().x / passes),
             Layer::Variance => {
                 let squares = self.squares.get(i).copied().unwrap_or_default();
                 squares / (passes * (passes - 1.0).max(1.0))
@@ -299,12 +325,12 @@ impl Tile {
             Layer::Noise => self.value(x, y, Layer::Variance, most).map(f64::sqrt),
             Layer::Bias => {
                 let (sum, looked) = self.bias.get(i).copied().unwrap_or_default();
-                sum / f64::from(looked.max(1))
+                sum.value() / f64::from(looked.max(1))
             }
-            Layer::Albedo => first().albedo / passes,
-            Layer::Normal => first().normal / passes,
-            Layer::Position => first().position / passes,
-            Layer::Depth => DVec3::splat(first().depth / passes),
+            Layer::Albedo => first().albedo.value() / passes,
+            Layer::Normal => first().normal.value() / passes,
+            Layer::Position => first().position.value() / passes,
+            Layer::Depth => DVec3::splat(first().depth.value().x / passes),
             Layer::Object => DVec3::splat(f64::from(first().object)),
             Layer::Samples => DVec3::splat(f64::from(self.samples[i])),
             Layer::Edges => {

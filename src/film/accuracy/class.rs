@@ -28,6 +28,8 @@ pub(super) struct Classes {
     pixels: f64,
     /// The class with the most probes.
     main: u32,
+    /// Whether noise is that of independent passes, whatever the probes tell.
+    pub independent: bool,
 }
 
 impl Classes {
@@ -43,19 +45,19 @@ impl Classes {
             let class = classes.entry(pixel.passes).or_default();
             class.independent.add(relative(&pixel, picture, floor));
         }
-        let mut probes: Vec<&Probe> = probes.filter(|probe| probe.passes > 1).collect();
+        let mut probes: Vec<&Probe> = probes.filter(|probe| probe.passes() > 1).collect();
         // A fixed order, whatever the tiles, so that sums have the same bits.
         probes.sort_by_key(|probe| (probe.y, probe.x));
         for probe in &probes {
-            let class = classes.entry(probe.passes).or_default();
-            class.part = probe.part;
+            let class = classes.entry(probe.passes()).or_default();
+            class.part = probe.first_half();
             class.groups.resize(GROUPS as usize, Sums::default());
             let group = combine(mix(u64::from(probe.x)), u64::from(probe.y)) % GROUPS;
             class.groups[group as usize].add(probe, picture, floor);
         }
         let main = classes.iter().max_by(|a, b| a.1.probes().total_cmp(&b.1.probes())).map(|(n, _)| *n)?;
         let pixels = classes.values().map(|class| class.independent.count).sum::<u64>() as f64;
-        (!probes.is_empty() && pixels > 0.0).then_some(Classes { classes, pixels, main })
+        (!probes.is_empty() && pixels > 0.0).then_some(Classes { classes, pixels, main, independent: false })
     }
 
     /// The squared error, as it is without one of the groups of probes.
@@ -70,7 +72,7 @@ impl Classes {
     }
 
     fn gain(&self, passes: u32, class: &Class, without: Option<usize>) -> f64 {
-        if passes != self.main && class.probes() < ENOUGH {
+        if self.independent || (passes != self.main && class.probes() < ENOUGH) {
             return 1.0;
         }
         class.sums(without).gain(class.part, passes)

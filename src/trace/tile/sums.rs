@@ -1,0 +1,137 @@
+//! A tile's sums to words and back, and the sums of two tiles together.
+
+use super::{FirstHitSums, PhotonSums, SplitSums, Spread, Tile};
+use crate::math::DVec3;
+use crate::trace::Probe;
+use crate::trace::words::{Reader, Record, Words, record};
+
+record!(FirstHitSums, albedo, normal, position, depth, object);
+record!(SplitSums, direct, reflection, refraction, caustic, indirect);
+record!(PhotonSums, dots, density);
+record!(Spread, squares, brightest);
+
+impl FirstHitSums {
+    fn join(&mut self, other: &FirstHitSums) {
+        self.albedo.join(&other.albedo);
+        self.normal.join(&other.normal);
+        self.position.join(&other.position);
+        self.depth.join(&other.depth);
+    }
+}
+
+impl SplitSums {
+    fn join(&mut self, other: &SplitSums) {
+        self.direct.join(&other.direct);
+        self.reflection.join(&other.reflection);
+        self.refraction.join(&other.refraction);
+        self.caustic.join(&other.caustic);
+        self.indirect.join(&other.indirect);
+    }
+}
+
+impl Tile {
+
+    /// Appends the sums of a pixel, given by its number in the tile.
+    fn put_pixel(&self, i: usize, words: &mut Words) {
+        fn put<T: Record>(list: &[T], i: usize, words: &mut Words) {
+            if let Some(record) = list.get(i) {
+                record.put(words);
+            }
+        }
+        put(&self.passes, i, words);
+        put(&self.samples, i, words);
+        put(&self.radiance, i, words);
+        put(&self.spread, i, words);
+        put(&self.split, i, words);
+        put(&self.first, i, words);
+        put(&self.squares, i, words);
+        put(&self.photons, i, words);
+        put(&self.bias, i, words);
+    }
+
+    /// Sets a pixel's sums to those of words. `false` where words are missing.
+    fn take_pixel(&mut self, i: usize, words: &mut Reader) -> bool {
+        fn take<T: Record>(list: &mut [T], i: usize, words: &mut Reader) -> bool {
+            let Some(slot) = list.get_mut(i) else { return true };
+            T::take(words).map(|record| *slot = record).is_some()
+        }
+        take(&mut self.passes, i, words)
+            && take(&mut self.samples, i, words)
+            && take(&mut self.radiance, i, words)
+            && take(&mut self.spread, i, words)
+            && take(&mut self.split, i, words)
+            && take(&mut self.first, i, words)
+            && take(&mut self.squares, i, words)
+            && take(&mut self.photons, i, words)
+            && take(&mut self.bias, i, words)
+    }
+
+    /// Appends the sums of all pixels, row by row.
+    pub fn put_pixels(&self, words: &mut Words) {
+        (0..self.radiance.len()).for_each(|i| self.put_pixel(i, words));
+    }
+
+    /// Sets the sums of all pixels. `false` where words are missing.
+    pub fn take_pixels(&mut self, words: &mut Reader) -> bool {
+        (0..self.radiance.len()).all(|i| self.take_pixel(i, words))
+    }
+
+    /// Appends the tile's probes.
+    pub fn put_probes(&self, words: &mut Words) {
+        self.probes.iter().for_each(|probe| probe.put(words));
+    }
+
+    /// Sets the tile's probes. `false` where words are missing.
+    pub fn take_probes(&mut self, words: &mut Reader) -> bool {
+        self.probes.iter_mut().all(|slot| Probe::take(words).map(|probe| *slot = probe).is_some())
+    }
+
+    /// Adds the passes of a tile of the same place and layers. What is kept of the first pass alone stays this
+    /// tile's, unless a pixel of it has no pass.
+    pub fn join(&mut self, other: &Tile) {
+        self.next = self.next.max(other.next);
+        for i in 0..self.radiance.len() {
+            let (mine, theirs) = (f64::from(self.passes[i]), f64::from(other.passes[i]));
+            if theirs == 0.0 {
+                continue;
+            }
+            // Chan, Golub & LeVeque 1979, eq. 2.1.
+            let off = if mine == 0.0 {
+                DVec3::ZERO
+            } else {
+                other.radiance[i].value() / theirs - self.radiance[i].value() / mine
+            };
+            let between = off * off * (mine * theirs / (mine + theirs));
+            if let (Some(squares), Some(more)) = (self.squares.get_mut(i), other.squares.get(i)) {
+                *squares += *more + between;
+            }
+            if let (Some(spread), Some(more)) = (self.spread.get_mut(i), other.spread.get(i)) {
+                spread.squares += more.squares + between.as_vec3();
+                spread.brightest = spread.brightest.max(more.brightest);
+            }
+            if let (Some(photons), Some(more)) = (self.photons.get_mut(i), other.photons.get(i)) {
+                photons.density.join(&more.density);
+                if mine == 0.0 {
+                    photons.dots = more.dots;
+                }
+            }
+            if let (Some(first), Some(more)) = (self.first.get_mut(i), other.first.get(i)) {
+                first.join(more);
+                if mine == 0.0 {
+                    first.object = more.object;
+                }
+            }
+            if let (Some(split), Some(more)) = (self.split.get_mut(i), other.split.get(i)) {
+                split.join(more);
+            }
+            if let (Some(bias), Some(more)) = (self.bias.get_mut(i), other.bias.get(i)) {
+                bias.0.join(&more.0);
+                bias.1 += more.1;
+            }
+            self.radiance[i].join(&other.radiance[i]);
+            self.passes[i] += other.passes[i];
+            self.samples[i] = self.samples[i].saturating_add(other.samples[i]);
+        }
+        self.probes.iter_mut().zip(&other.probes).for_each(|(probe, more)| probe.join(more));
+    }
+}
