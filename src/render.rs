@@ -29,7 +29,7 @@ pub use keeper::{Checkpoint, Halt};
 use keeper::Keeper;
 use kept::Form;
 pub use kept::{Part, save, write};
-pub use merge::{Merged, MergeError, merge};
+pub use merge::{MergeError, Merged, list as shard_list, merge};
 pub use next::{Factor, Next, not_seen};
 pub use options::{Aov, Options, Progress, RenderError, Silent};
 use passes::Traced;

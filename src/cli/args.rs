@@ -1,5 +1,6 @@
 //! The arguments, as typed.
 
+use super::batch_args::BatchArgs;
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
 use super::study_args::{STUDY_EXAMPLES, StudyArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
@@ -18,7 +19,8 @@ Examples:
   terrarium diff image.exr reference.exr --max-e 1%
 
 Exit codes: 0 done; 1 the render failed, or diff found a difference; 2 the scene is invalid or the call is wrong;
-3 a file can't be read; 4 an output can't be written (tested before the first ray).";
+3 a file can't be read; 4 an output can't be written (tested before the first ray); 5 more memory than allowed;
+6 stopped early (SIGINT, SIGTERM) with what was there written; 130, 143 stopped at once by a second signal.";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -26,6 +28,13 @@ Examples:
   terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
+
+const MERGE_EXAMPLES: &str = "\
+Examples:
+  terrarium render scene.ron --shard 0/2 -o a.exr
+  terrarium render scene.ron --shard 1/2 -o b.exr
+  terrarium merge a.exr b.exr -o image.exr -o image.png
+  terrarium merge parts/ -o image.exr --allow-missing";
 
 const PLAN_EXAMPLES: &str = "\
 Examples:
@@ -75,6 +84,9 @@ pub enum Command {
     /// Compare an image with a reference: metrics, limits, heat maps
     #[command(after_help = DIFF_EXAMPLES)]
     Diff(Box<DiffArgs>),
+    /// Put the partial images of a divided render together: the same bits as from one machine
+    #[command(after_help = MERGE_EXAMPLES)]
+    Merge(MergeArgs),
     /// Rewrite a scene in the other format, RON or TOML
     Convert(ConvertArgs),
     /// Print the JSON Schema of scenes, for completion in editors
@@ -92,7 +104,7 @@ pub struct RenderArgs {
     /// The scene, .ron or .toml; `-` reads it from standard input
     pub scene: PathBuf,
     /// The image to write, .exr or .png; `-` is standard output; may be given several times
-    #[arg(short, long, value_name = "FILE", required = true)]
+    #[arg(short, long, value_name = "FILE", required_unless_present = "out_dir")]
     pub output: Vec<PathBuf>,
     /// Format of the image that goes to standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
@@ -101,6 +113,8 @@ pub struct RenderArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub work: Work,
+    #[command(flatten)]
+    pub batch: BatchArgs,
     /// Edge of a tile in pixels. The image does not depend on it
     #[arg(long, value_name = "PIXELS", default_value_t = 32,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -180,6 +194,25 @@ impl Work {
             ..Options::default()
         }
     }
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct MergeArgs {
+    /// Partial images, or folders of them (files named *.shard*.exr)
+    #[arg(required = true, value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    /// The image to write, .exr or .png; `-` is standard output; may be given several times
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// Format of the image that goes to standard output
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
+    pub format: ImageFormat,
+    /// Make the image of the parts that are there, and restate its error
+    #[arg(long)]
+    pub allow_missing: bool,
+    /// Print only warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -15,6 +15,9 @@ pub const NOT_WRITABLE: u8 = 4;
 /// A limit on what a render may take.
 pub const REFUSED: u8 = 5;
 
+/// Stopped early from outside; what was there is written.
+pub const STOPPED: u8 = 6;
+
 /// Why the program ends with a code other than 0; an empty message if all has been said.
 #[derive(Debug)]
 pub struct Failure {

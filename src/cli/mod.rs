@@ -4,17 +4,21 @@
 //! for; progress and messages go to standard error.
 
 mod args;
+mod batch_args;
 mod check;
 mod convert;
 mod diff;
 mod diff_args;
 mod diff_text;
+mod engine;
 mod exit;
 mod measure;
+mod merge;
 mod plan;
 mod progress;
 mod render;
 mod report;
+mod signals;
 mod study;
 mod study_args;
 mod summary;
@@ -60,6 +64,7 @@ fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
         Command::Plan(args) => plan::run(args, terminal),
         Command::Study(args) => study::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),
+        Command::Merge(args) => merge::run(args, terminal),
         Command::Convert(args) => convert::run(args, terminal),
         Command::Diff(args) => diff::run(args, terminal),
         Command::Schema => {

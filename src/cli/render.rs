@@ -6,22 +6,28 @@
 
 use super::args::RenderArgs;
 use super::check::{files, load_and_report, refused, set_threads};
-use super::exit::{Failure, USAGE};
+use super::exit::{Failure, STOPPED, USAGE};
 use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
+use super::signals::stop_on_signals;
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
 use terrarium::forecast::memory;
-use terrarium::output::{Stamp, atomic, depfile};
+use terrarium::film::Film;
+use terrarium::output::{Format, Stamp, Written, atomic, depfile};
 use terrarium::plan::{MOST_PASSES, Plan, Until};
-use terrarium::render::{self, Options, Progress, RenderError, Rendered};
+use terrarium::render::{self, Checkpoint, Options, Part, Progress, RenderError, Rendered, Shards};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
-    let targets = targets(args)?;
+    let shards = args.batch.divided()?;
+    let targets = match &shards {
+        Some(shards) => vec![part_target(args, shards)?],
+        None => targets(args)?,
+    };
     refuse_mixed_up_files(args, &targets)?;
     let stamp = args.stamp.then(stamp).transpose()?;
     set_threads(args.work.threads)?;
@@ -34,25 +40,47 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
         terminal.say(&announcement(args, &loaded.scene, began)?);
     }
 
-    let mut rendered = render::render(&loaded, &options(args, began), &reporter).map_err(|error| {
+    let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path))?;
+    tell_of_checkpoint(checkpoint.as_ref(), terminal);
+    let written_down = checkpoint.as_ref().map(|checkpoint| checkpoint.path.clone());
+    let options = Options { shards, checkpoint, halt: Some(stop_on_signals()), ..options(args, began) };
+    let mut rendered = render::render(&loaded, &options, &reporter).map_err(|error| {
         reporter.finish();
         unbuildable(error, &loaded, terminal)
     })?;
     refuse_overwriting(&targets, &rendered.files)?;
     rendered.provenance.stamp = stamp;
 
+    if let (true, Some((part, _)), true) = (rendered.halted, &rendered.part, options.shards.is_some()) {
+        return Err(stopped(part.done, written_down.as_deref(), "no partial image is written"));
+    }
     reporter.start("write", targets.len() as u64, "images");
     let (mut staged, mut written) = (Vec::new(), Vec::new());
     for target in &targets {
         let settings = png_settings(&loaded.scene.image);
-        let (image, changed) = target.stage(&rendered.image, &rendered.provenance, settings)?;
+        let (image, changed) = match (&rendered.part, target) {
+            (Some((part, film)), Target::File(path, _)) if options.shards.is_some() => {
+                stage_part(path, &rendered, part, film)?
+            }
+            _ => target.stage(&rendered.image, &rendered.provenance, settings)?,
+        };
         staged.push(image);
         written.push(changed);
         reporter.advance(1);
     }
     // before the images: with them, make would take the old dependencies for current
-    write_depfile(args, &targets, &loaded, &rendered)?;
+    if !rendered.halted {
+        write_depfile(args, &targets, &loaded, &rendered)?;
+    }
     staged.into_iter().try_for_each(target::Staged::commit)?;
+    if let (true, Some((part, _))) = (rendered.halted, &rendered.part) {
+        reporter.finish();
+        return Err(stopped(part.done, written_down.as_deref(), "the image is of what was there"));
+    }
+    if let Some(file) = &written_down {
+        // There may be none.
+        let _ = std::fs::remove_file(file);
+    }
     reporter.complete();
 
     rendered.warnings.iter().for_each(|warning| terminal.warning(warning));
@@ -64,7 +92,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
         seed: rendered.provenance.seed,
         width: rendered.image.width,
         height: rendered.image.height,
-        outputs: args.output.iter().map(|path| path.display().to_string()).collect(),
+        outputs: targets.iter().map(Target::name).collect(),
         threads: rayon::current_num_threads(),
         seconds: began.elapsed().as_secs_f64(),
         peak_bytes: memory::held().map(|held| held.most),
@@ -87,6 +115,44 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Where a part of a render goes.
+fn part_target(args: &RenderArgs, shards: &Shards) -> Result<Target, Failure> {
+    if let Some(folder) = &args.batch.out_dir {
+        return Ok(Target::File(folder.join(args.batch.name(&args.scene, shards)), Format::Exr));
+    }
+    match targets(args)?.as_slice() {
+        [Target::File(path, Format::Exr)] => Ok(Target::File(path.clone(), Format::Exr)),
+        _ => Err(Failure::new(
+            USAGE,
+            "a part of a render is one EXR file: `-o part.exr` or `--out-dir parts`; `terrarium merge` makes images of parts",
+        )),
+    }
+}
+
+fn stage_part(path: &Path, rendered: &Rendered, part: &Part, film: &Film) -> Result<(target::Staged, Written), Failure> {
+    let name = path.display().to_string();
+    let mut file = atomic::Pending::create(path).map_err(|error| Failure::writing(&name, error))?;
+    render::write(&mut file, &rendered.image, &rendered.provenance, part, film)
+        .map_err(|error| Failure::image(&name, error))?;
+    Ok((target::Staged::File(file, path.to_path_buf()), Written::default()))
+}
+
+/// What an earlier run left is not lost without a word.
+fn tell_of_checkpoint(checkpoint: Option<&Checkpoint>, terminal: &Terminal) {
+    if let Some(Checkpoint { path, resume: false, .. }) = checkpoint
+        && path.exists()
+    {
+        terminal.note(&format!("{} is of an earlier run: --resume would go on with it", path.display()));
+    }
+}
+
+fn stopped(done: u32, checkpoint: Option<&Path>, written: &str) -> Failure {
+    let resume = checkpoint.filter(|path| path.exists()).map_or(String::new(), |path| {
+        format!("; --resume goes on from {}", path.display())
+    });
+    Failure::new(STOPPED, format!("stopped after {done} passes: {written}{resume}"))
+}
+
 /// Building stops at the first file that it cannot use: all that is wrong with them is told instead.
 pub fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> Failure {
     if matches!(error, RenderError::Failed(_) | RenderError::TooLarge(_)) {
@@ -97,7 +163,13 @@ pub fn unbuildable(error: RenderError, loaded: &Loaded, terminal: &Terminal) -> 
 }
 
 fn options(args: &RenderArgs, began: Instant) -> Options {
-    Options { tile: args.tile, strict: args.strict, began: Some(began), ..args.work.options() }
+    Options {
+        tile: args.tile,
+        strict: args.strict,
+        began: Some(began),
+        crop: args.batch.crop,
+        ..args.work.options()
+    }
 }
 
 /// The first line: what is rendered, how large, until when, with how many threads.

@@ -43,6 +43,10 @@ impl Terminal {
         self.begin_with("error:", &format!(" {text}"));
     }
 
+    pub fn note(&self, text: &str) {
+        self.begin_with("note:", &format!(" {text}"));
+    }
+
     pub fn warning(&self, text: &str) {
         self.begin_with("warning:", &format!(" {text}"));
     }

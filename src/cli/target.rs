@@ -21,10 +21,20 @@ pub enum Staged {
 
 /// The outputs that were asked for; refuses formats unknown, paths given twice, and a terminal.
 pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
+    let targets = targets_of(&args.output, args.format)?;
+    let shown = targets.iter().any(|target| matches!(target, Target::Stdout(_)));
+    if shown && args.stats.as_deref() == Some(Path::new("-")) {
+        return Err(Failure::new(USAGE, "the image and the statistics can't both go to standard output"));
+    }
+    Ok(targets)
+}
+
+/// The same of any command.
+pub fn targets_of(outputs: &[PathBuf], format: ImageFormat) -> Result<Vec<Target>, Failure> {
     let mut targets: Vec<Target> = Vec::new();
-    for path in &args.output {
+    for path in outputs {
         let target = if path == Path::new("-") {
-            Target::Stdout(match args.format {
+            Target::Stdout(match format {
                 ImageFormat::Exr => Format::Exr,
                 ImageFormat::Png => Format::Png,
             })
@@ -44,13 +54,9 @@ pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
         }
         targets.push(target);
     }
-    if targets.iter().any(|target| matches!(target, Target::Stdout(_))) {
-        if io::stdout().is_terminal() {
-            return Err(Failure::new(USAGE, "standard output is a terminal, which can't show an image file"));
-        }
-        if args.stats.as_deref() == Some(Path::new("-")) {
-            return Err(Failure::new(USAGE, "the image and the statistics can't both go to standard output"));
-        }
+    let shown = targets.iter().any(|target| matches!(target, Target::Stdout(_)));
+    if shown && io::stdout().is_terminal() {
+        return Err(Failure::new(USAGE, "standard output is a terminal, which can't show an image file"));
     }
     Ok(targets)
 }
@@ -73,6 +79,14 @@ fn place(path: &Path) -> PathBuf {
 }
 
 impl Target {
+    /// As it was typed.
+    pub fn name(&self) -> String {
+        match self {
+            Target::File(path, _) => path.display().to_string(),
+            Target::Stdout(_) => "-".to_owned(),
+        }
+    }
+
     pub fn path(&self) -> Option<&Path> {
         match self {
             Target::File(path, _) => Some(path),

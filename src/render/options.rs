@@ -173,7 +173,13 @@ impl Options {
     }
 
     /// Refuses what this plan cannot give.
-    pub(super) fn check(&self, plan: &Plan) -> Result<(), RenderError> {
+    pub(super) fn check(&self, plan: &Plan, width: u32, height: u32) -> Result<(), RenderError> {
+        if let Some(crop) = self.crop.filter(|crop| crop.x1 > width || crop.y1 > height || crop.pixels() == 0) {
+            let Window { x0, y0, x1, y1 } = crop;
+            return Err(RenderError::Invalid(format!(
+                "--crop {x0},{y0},{x1},{y1} is not within the image of {width} × {height} pixels"
+            )));
+        }
         let by_passes = [Aov::Variance, Aov::Noise].into_iter().find(|aov| self.aovs.contains(aov));
         if let Some(aov) = by_passes.filter(|_| plan.passes < 2) {
             let name = aov.name();

@@ -34,7 +34,7 @@ impl Prepared {
         clock: &mut Clock,
     ) -> Result<(Prepared, PassMaps), RenderError> {
         let plan = Plan::new(&loaded.scene, &options.request())?;
-        options.check(&plan)?;
+        options.check(&plan, loaded.scene.image.width, loaded.scene.image.height)?;
         room::check(options, loaded.scene.image.width, loaded.scene.image.height)?;
         clock.lap("plan");
 

@@ -1,0 +1,158 @@
+//! Arguments that divide a render, stop it and go on with it.
+
+use super::engine;
+use super::exit::{Failure, USAGE};
+use clap::Args as ClapArgs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use terrarium::film::Window;
+use terrarium::render::{Checkpoint, Shards};
+
+#[derive(Debug, ClapArgs)]
+pub struct BatchArgs {
+    /// Render one part of N, such as `2/8`, numbered from 0: a share of the passes, or of the tiles where there
+    /// are fewer passes than parts. `auto` takes the number from the engine that started the program. What is
+    /// written is a partial EXR for `terrarium merge`
+    #[arg(long, value_name = "I/N", conflicts_with = "shards")]
+    pub shard: Option<String>,
+    /// Render several parts of those that --of says: `0-3`, `0-3,6`, `0-7:2`
+    #[arg(long, value_name = "A-B,…", requires = "of")]
+    pub shards: Option<String>,
+    /// The number of parts, for --shards and `--shard auto`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub of: Option<u32>,
+    /// Folder for partial images, named by scene and part
+    #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
+    pub out_dir: Option<PathBuf>,
+    /// Render these pixels alone, `x0,y0,x1,y1` from the top left, the last column and row not included
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window)]
+    pub crop: Option<Window>,
+    /// How often to write down what has been traced, beside the first image as `….checkpoint`; `off` for never
+    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = interval)]
+    pub checkpoint: Interval,
+    /// Go on from the checkpoint, if there is one
+    #[arg(long)]
+    pub resume: bool,
+}
+
+/// Of checkpoints; none for never.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval(Option<Duration>);
+
+fn interval(text: &str) -> Result<Interval, String> {
+    if text.trim() == "off" {
+        return Ok(Interval(None));
+    }
+    super::args::seconds(text).map(|seconds| Interval(Some(Duration::from_secs_f64(seconds.min(1e9)))))
+}
+
+fn window(text: &str) -> Result<Window, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(Window { x0, y0, x1, y1 }),
+        Some([_, _, _, _]) => Err(format!("`{text}` holds no pixel: x0 < x1 and y0 < y1")),
+        _ => Err(format!("`{text}` is no rectangle of pixels: x0,y0,x1,y1")),
+    }
+}
+
+impl BatchArgs {
+    /// The parts that are asked for.
+    pub fn divided(&self) -> Result<Option<Shards>, Failure> {
+        let wrong = |message: String| Failure::new(USAGE, message);
+        if let (Some(list), Some(of)) = (&self.shards, self.of) {
+            let numbers = numbers(list).map_err(|error| wrong(format!("--shards {list}: {error}")))?;
+            return Ok(Some(Shards { numbers, of }));
+        }
+        let Some(shard) = &self.shard else {
+            if self.of.is_some() {
+                return Err(wrong("--of goes with --shards or with `--shard auto`".to_owned()));
+            }
+            return Ok(None);
+        };
+        if shard == "auto" {
+            let found = engine::find(self.of, |name| std::env::var(name).ok()).map_err(wrong)?;
+            return Ok(Some(Shards { numbers: vec![found.index], of: found.of }));
+        }
+        let parsed = shard.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+        match parsed {
+            Some((number, of)) if number < of && self.of.is_none_or(|n| n == of) => {
+                Ok(Some(Shards { numbers: vec![number], of }))
+            }
+            _ => Err(wrong(format!("--shard {shard}: a part is `2/8`, from 0/8 to 7/8, or `auto`"))),
+        }
+    }
+
+    /// The name of a partial image in --out-dir.
+    pub fn name(&self, scene: &Path, shards: &Shards) -> String {
+        let stem = scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
+        let stem = if stem == "-" { "scene".into() } else { stem };
+        let of = shards.of;
+        match shards.numbers[..] {
+            [number] => format!("{stem}.shard-{number:04}-of-{of:04}.exr"),
+            ref numbers => {
+                let (first, last) = (numbers.first().unwrap_or(&0), numbers.last().unwrap_or(&0));
+                let several = if numbers.len() as u32 == last - first + 1 { "" } else { "-some" };
+                format!("{stem}.shards-{first:04}-{last:04}{several}-of-{of:04}.exr")
+            }
+        }
+    }
+
+    /// Checkpoints beside the first image that is a file.
+    pub fn checkpoints(&self, image: Option<&Path>) -> Result<Option<Checkpoint>, Failure> {
+        let (Some(every), Some(image)) = (self.checkpoint.0, image) else {
+            if self.resume {
+                return Err(Failure::new(USAGE, "--resume needs checkpoints, and an image that is a file"));
+            }
+            return Ok(None);
+        };
+        let mut path = image.as_os_str().to_owned();
+        path.push(".checkpoint");
+        Ok(Some(Checkpoint { path: path.into(), every, resume: self.resume }))
+    }
+}
+
+/// A list of ranges: `0-3,6,10-20:2`, rising and without repetition.
+pub fn numbers(text: &str) -> Result<Vec<u32>, String> {
+    let number = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no whole number"));
+    let mut list = Vec::new();
+    for part in text.split(',') {
+        let (range, step) = match part.split_once(':') {
+            Some((range, step)) => (range, number(step)?),
+            None => (part, 1),
+        };
+        let (first, last) = match range.split_once('-') {
+            Some((first, last)) => (number(first)?, number(last)?),
+            None => (number(range)?, number(range)?),
+        };
+        if last < first || step == 0 || last - first >= 1 << 20 {
+            return Err(format!("`{part}` is no range: `0-7` or `0-7:2`"));
+        }
+        list.extend((first..=last).step_by(step as usize));
+    }
+    list.sort_unstable();
+    let all = list.len();
+    list.dedup();
+    if list.len() < all { Err("a number is there twice".to_owned()) } else { Ok(list) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_numbers_are_those_of_engines() {
+        assert_eq!(numbers("0-0"), Ok(vec![0]));
+        assert_eq!(numbers("1-3,5,7-12:2"), Ok(vec![1, 2, 3, 5, 7, 9, 11]));
+        for wrong in ["", "a", "3-1", "1-3:0", "1,1", "0-4294967295", "-1"] {
+            assert!(numbers(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn crops_hold_a_pixel() {
+        assert_eq!(window("1,2,3,4"), Ok(Window { x0: 1, y0: 2, x1: 3, y1: 4 }));
+        for wrong in ["", "1,2,3", "3,0,3,4", "0,4,1,4", "-1,0,1,1", "0,0,1,1,1"] {
+            assert!(window(wrong).is_err(), "{wrong}");
+        }
+    }
+}
