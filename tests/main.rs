@@ -4,6 +4,8 @@
 #[path = "accuracy/main.rs"]
 mod accuracy;
 mod assets;
+#[path = "batch/main.rs"]
+mod batch;
 mod command_line;
 #[path = "diff/main.rs"]
 mod diff;

@@ -29,6 +29,11 @@ Examples:
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
 
+const FARM_EXAMPLES: &str = "\
+Examples:
+  terrarium farm scene.ron --engine slurm --shards 32 -o image.exr --folder job && sh job/terrarium-scene.submit.sh
+  terrarium farm scene.ron --engine openjd --shards 8 -o image.exr --parts parts";
+
 const MERGE_EXAMPLES: &str = "\
 Examples:
   terrarium render scene.ron --shard 0/2 -o a.exr
@@ -87,6 +92,9 @@ pub enum Command {
     /// Put the partial images of a divided render together: the same bits as from one machine
     #[command(after_help = MERGE_EXAMPLES)]
     Merge(MergeArgs),
+    /// Write the files with which Slurm, Open Job Description or Kubernetes renders a scene in parts
+    #[command(after_help = FARM_EXAMPLES)]
+    Farm(Box<FarmArgs>),
     /// Rewrite a scene in the other format, RON or TOML
     Convert(ConvertArgs),
     /// Print the JSON Schema of scenes, for completion in editors
@@ -194,6 +202,48 @@ impl Work {
             ..Options::default()
         }
     }
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct FarmArgs {
+    /// The scene, .ron or .toml, at the same place on every machine
+    pub scene: PathBuf,
+    /// The engine that will render
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    pub engine: Engine,
+    /// Parts that the render is divided into
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub shards: u32,
+    /// The image that the parts are merged to, .exr or .png; may be given several times
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// Folder for the partial images, which all machines see
+    #[arg(long, value_name = "FOLDER", default_value = "parts")]
+    pub parts: PathBuf,
+    /// Folder for the job files; the working directory if not given
+    #[arg(long, value_name = "FOLDER")]
+    pub folder: Option<PathBuf>,
+    /// Processors of a part; 4 if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub cpus: Option<u32>,
+    /// The program on the machines that render
+    #[arg(long, value_name = "PROGRAM", default_value = "terrarium")]
+    pub program: String,
+    /// The container image, for Kubernetes
+    #[arg(long, value_name = "IMAGE", default_value = "terrarium:latest")]
+    pub image: String,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub work: Work,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    Slurm,
+    /// Open Job Description, of AWS Deadline Cloud
+    Openjd,
+    Kubernetes,
 }
 
 #[derive(Debug, ClapArgs)]

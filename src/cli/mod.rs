@@ -12,6 +12,7 @@ mod diff_args;
 mod diff_text;
 mod engine;
 mod exit;
+mod farm;
 mod measure;
 mod merge;
 mod plan;
@@ -65,6 +66,7 @@ fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
         Command::Study(args) => study::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),
         Command::Merge(args) => merge::run(args, terminal),
+        Command::Farm(args) => farm::run(args, terminal),
         Command::Convert(args) => convert::run(args, terminal),
         Command::Diff(args) => diff::run(args, terminal),
         Command::Schema => {

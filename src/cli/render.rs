@@ -118,6 +118,8 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
 /// Where a part of a render goes.
 fn part_target(args: &RenderArgs, shards: &Shards) -> Result<Target, Failure> {
     if let Some(folder) = &args.batch.out_dir {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| Failure::writing(&folder.display().to_string(), error))?;
         return Ok(Target::File(folder.join(args.batch.name(&args.scene, shards)), Format::Exr));
     }
     match targets(args)?.as_slice() {
@@ -150,7 +152,7 @@ fn stopped(done: u32, checkpoint: Option<&Path>, written: &str) -> Failure {
     let resume = checkpoint.filter(|path| path.exists()).map_or(String::new(), |path| {
         format!("; --resume goes on from {}", path.display())
     });
-    Failure::new(STOPPED, format!("stopped after {done} passes: {written}{resume}"))
+    Failure::new(STOPPED, format!("stopped after {done} pass{}: {written}{resume}", if done == 1 { "" } else { "es" }))
 }
 
 /// Building stops at the first file that it cannot use: all that is wrong with them is told instead.

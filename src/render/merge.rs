@@ -115,8 +115,7 @@ impl Sum {
         let missing: Vec<u32> = (0..form.of).filter(|shard| !there(shard)).collect();
         if !missing.is_empty() && !allowed {
             return Err(MergeError::Invalid(format!(
-                "{} of {} shards are missing: {}; --allow-missing makes the image of those that are there",
-                missing.len(),
+                "of {} shards, {} are not there; --allow-missing makes the image of those that are there",
                 form.of,
                 list(&missing)
             )));

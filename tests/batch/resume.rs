@@ -1,0 +1,127 @@
+//! Renders that are killed or stopped, and gone on with.
+
+use super::{ADAPTIVE, CAUSTIC, Lab};
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+fn begun(lab: &Lab, words: &[&str]) -> Child {
+    lab.command(words).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts")
+}
+
+/// Sends a signal by name.
+#[cfg(unix)]
+fn signal(child: &Child, name: &str) {
+    let sent = std::process::Command::new("kill").args([name, &child.id().to_string()]).status();
+    assert!(sent.is_ok_and(|status| status.success()));
+}
+
+/// Milliseconds that are spread over those below `most`.
+fn moment(i: u64, most: u64) -> Duration {
+    let mixed = (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    Duration::from_millis((mixed ^ mixed >> 31) % most)
+}
+
+/// A render that would last some seconds.
+const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "240", "-q"];
+
+/// Killed again and again, at other moments, until it is done.
+#[test]
+fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
+    for (scene, work) in [
+        (CAUSTIC, &["--passes", "120"][..]),
+        (CAUSTIC, &["--error", "4%", "--passes", "4000"]),
+        (ADAPTIVE, &["--passes", "1", "--set", "image.width=500", "--set", "image.height=400"]),
+    ] {
+        let lab = Lab::new(scene);
+        let words = [&["render", "scene.ron", "-q"], work].concat();
+        let began = Instant::now();
+        lab.done(&[&words[..], &["-o", "whole.exr"]].concat());
+        let whole = began.elapsed().as_millis() as u64;
+        let again = [&words[..], &["-o", "killed.exr", "--checkpoint", "10ms", "--resume"]].concat();
+        let mut kills = 0;
+        for i in 0..12 {
+            let mut child = begun(&lab, &again);
+            let end = Instant::now() + moment(i, whole / 2 + 50);
+            while Instant::now() < end && child.try_wait().expect("a child").is_none() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            kills += u32::from(child.try_wait().expect("a child").is_none());
+            let _ = child.kill();
+            let _ = child.wait();
+            let found = lab.path("killed.exr");
+            if found.exists() {
+                assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "a file that is not whole");
+                break;
+            }
+        }
+        assert!(kills > 0, "nothing was killed");
+        lab.done(&again);
+        assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "{work:?} after {kills} kills");
+        assert!(!lab.names().iter().any(|name| name.ends_with(".checkpoint")), "{:?}", lab.names());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_render_that_is_stopped_leaves_a_valid_image_and_goes_on() {
+    let lab = Lab::new(CAUSTIC);
+    for name in ["-TERM", "-INT", "-USR1"] {
+        let words = [&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat();
+        let mut child = begun(&lab, &words);
+        std::thread::sleep(Duration::from_millis(700));
+        let asked = Instant::now();
+        signal(&child, name);
+        let status = child.wait().expect("it ends");
+        assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+        assert_eq!(status.code(), Some(6), "{name}");
+        assert!(image::open(lab.path("out.png")).is_ok());
+        assert!(exr::prelude::read_first_flat_layer_from_file(lab.path("out.exr")).is_ok());
+        assert!(lab.path("out.exr.checkpoint").exists());
+    }
+    lab.done(&[&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat());
+    lab.done(&[&WORK[..], &["-o", "whole.exr"]].concat());
+    assert!(lab.bytes("out.exr") == lab.bytes("whole.exr"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_second_signal_ends_at_once() {
+    let lab = Lab::new(CAUSTIC);
+    let mut child = begun(&lab, &["render", "scene.ron", "--passes", "100000", "-q", "-o", "out.exr"]);
+    std::thread::sleep(Duration::from_millis(500));
+    signal(&child, "-TERM");
+    signal(&child, "-TERM");
+    let code = child.wait().expect("it ends").code();
+    // The first may have been enough.
+    assert!(code == Some(143) || code == Some(6), "{code:?}");
+}
+
+#[test]
+fn a_checkpoint_of_another_render_is_refused_with_both_hashes() {
+    let lab = Lab::new(CAUSTIC);
+    let words = [&WORK[..], &["-o", "out.exr", "--checkpoint", "10ms"]].concat();
+    let mut child = begun(&lab, &words);
+    while !lab.path("out.exr.checkpoint").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+    for (more, reason) in [
+        (&["--set", "materials.glass.ior=1.4"][..], "the scene's hash is "),
+        (&["--seed", "9"], "the seed is 0 there and 9 here"),
+        (&["--passes", "300"], "the range of passes is 0..240 there and 0..300 here"),
+        (&["--aov", "normal"], "layers"),
+    ] {
+        let mut again: Vec<&str> = words.iter().copied().filter(|word| *word != "-q").collect();
+        if more[0] == "--passes" {
+            again.retain(|word| !["--passes", "240"].contains(word));
+        }
+        let said = lab.fails(2, &[&again[..], &["--resume"], more].concat());
+        assert!(said.contains("out.exr.checkpoint") && said.contains(reason), "{said}");
+    }
+    // A damaged one is told; without --resume it is replaced.
+    let bytes = lab.bytes("out.exr.checkpoint");
+    std::fs::write(lab.path("out.exr.checkpoint"), &bytes[..bytes.len() - 100]).expect("written");
+    let said = lab.fails(3, &[&words[..], &["--resume"]].concat());
+    assert!(said.contains("can't go on from out.exr.checkpoint"), "{said}");
+}
