@@ -73,7 +73,8 @@ impl BatchArgs {
             let found = engine::find(self.of, |name| std::env::var(name).ok()).map_err(wrong)?;
             return Ok(Some(Shards { numbers: vec![found.index], of: found.of }));
         }
-        let parsed = shard.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+        let parsed =
+            shard.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
         match parsed {
             Some((number, of)) if number < of && self.of.is_none_or(|n| n == of) => {
                 Ok(Some(Shards { numbers: vec![number], of }))

@@ -99,7 +99,8 @@ mod tests {
     #[test]
     fn each_engine_says_which_part_this_is() {
         let task = |index, of| Ok(Task { index, of });
-        let slurm = [("SLURM_ARRAY_TASK_ID", "9"), ("SLURM_ARRAY_TASK_MIN", "5"), ("SLURM_ARRAY_TASK_MAX", "12")];
+        let slurm =
+            [("SLURM_ARRAY_TASK_ID", "9"), ("SLURM_ARRAY_TASK_MIN", "5"), ("SLURM_ARRAY_TASK_MAX", "12")];
         assert_eq!(found(None, &slurm), task(4, 8));
         // some of the tasks, submitted again
         assert_eq!(found(Some(16), &slurm), task(9, 16));

@@ -82,7 +82,8 @@ pub fn run(args: &FarmArgs, terminal: &Terminal) -> Result<(), Failure> {
 }
 
 fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> {
-    let loaded = load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
+    let loaded =
+        load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
     let reporter = Reporter::new(super::args::ProgressChoice::None, true, terminal);
     let shards = Shards { numbers: vec![0], of: args.shards };
     let options = Options { shards: Some(shards), began: Some(Instant::now()), ..args.work.options() };
@@ -91,13 +92,16 @@ fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> 
     let cpus = args.cpus.unwrap_or(4);
     // Stages before the first tile run in every shard.
     let traced: f64 = planned.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
-    let shard = (planned.seconds - traced + traced / f64::from(args.shards)) * threads / f64::from(cpus).min(threads);
+    let shard =
+        (planned.seconds - traced + traced / f64::from(args.shards)) * threads / f64::from(cpus).min(threads);
     let peak = planned.peak_bytes.unwrap_or(0) as f64;
     let sums = planned.memory.film_bytes as f64;
     let stem = args.scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
-    let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
+    let name: String =
+        stem.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
     let place = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let folder = std::env::current_dir().map_err(|e| Failure::new(USAGE, format!("no working directory: {e}")))?;
+    let folder =
+        std::env::current_dir().map_err(|e| Failure::new(USAGE, format!("no working directory: {e}")))?;
     Ok((
         Job {
             name: format!("terrarium-{}", name.trim_matches('-')),
@@ -131,7 +135,8 @@ fn again(args: &FarmArgs) -> Vec<String> {
     if let Some(seed) = work.seed {
         add("--seed", seed.to_string());
     }
-    let names = |list: &[terrarium::plan::Effect]| list.iter().map(|e| e.name()).collect::<Vec<_>>().join(",");
+    let names =
+        |list: &[terrarium::plan::Effect]| list.iter().map(|e| e.name()).collect::<Vec<_>>().join(",");
     for (name, effects) in
         [("--without", &work.effects.without), ("--only", &work.effects.only), ("--with", &work.effects.with)]
     {

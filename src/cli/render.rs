@@ -15,8 +15,8 @@ use super::target::{self, Target, png_settings, same_file, targets};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
-use terrarium::forecast::memory;
 use terrarium::film::Film;
+use terrarium::forecast::memory;
 use terrarium::output::{Format, Stamp, Written, atomic, depfile};
 use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Checkpoint, Options, Part, Progress, RenderError, Rendered, Shards};
@@ -131,7 +131,12 @@ fn part_target(args: &RenderArgs, shards: &Shards) -> Result<Target, Failure> {
     }
 }
 
-fn stage_part(path: &Path, rendered: &Rendered, part: &Part, film: &Film) -> Result<(target::Staged, Written), Failure> {
+fn stage_part(
+    path: &Path,
+    rendered: &Rendered,
+    part: &Part,
+    film: &Film,
+) -> Result<(target::Staged, Written), Failure> {
     let name = path.display().to_string();
     let mut file = atomic::Pending::create(path).map_err(|error| Failure::writing(&name, error))?;
     render::write(&mut file, &rendered.image, &rendered.provenance, part, film)
@@ -149,10 +154,13 @@ fn tell_of_checkpoint(checkpoint: Option<&Checkpoint>, terminal: &Terminal) {
 }
 
 fn stopped(done: u32, checkpoint: Option<&Path>, written: &str) -> Failure {
-    let resume = checkpoint.filter(|path| path.exists()).map_or(String::new(), |path| {
-        format!("; --resume goes on from {}", path.display())
-    });
-    Failure::new(STOPPED, format!("stopped after {done} pass{}: {written}{resume}", if done == 1 { "" } else { "es" }))
+    let resume = checkpoint
+        .filter(|path| path.exists())
+        .map_or(String::new(), |path| format!("; --resume goes on from {}", path.display()));
+    Failure::new(
+        STOPPED,
+        format!("stopped after {done} pass{}: {written}{resume}", if done == 1 { "" } else { "es" }),
+    )
 }
 
 /// Building stops at the first file that it cannot use: all that is wrong with them is told instead.

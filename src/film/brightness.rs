@@ -27,7 +27,8 @@ impl Brightness {
             return 1.0;
         }
         let Window { x0, y0, x1, y1 } = self.window;
-        let near = |centre: u32, start: u32, end: u32| centre.saturating_sub(1).max(start)..(centre + 2).min(end);
+        let near =
+            |centre: u32, start: u32, end: u32| centre.saturating_sub(1).max(start)..(centre + 2).min(end);
         let brightest = near(y, y0, y1)
             .flat_map(|v| near(x, x0, x1).map(move |u| (u, v)))
             .filter(|place| *place != (x, y))

@@ -47,7 +47,8 @@ impl Exact {
     }
 
     pub fn from_words(words: [u32; Self::WORDS]) -> Exact {
-        let one = |c: usize| (0..4).fold(0u128, |sum, i| sum | u128::from(words[4 * c + i]) << (32 * i)) as i128;
+        let one =
+            |c: usize| (0..4).fold(0u128, |sum, i| sum | u128::from(words[4 * c + i]) << (32 * i)) as i128;
         Exact([one(0), one(1), one(2)])
     }
 }

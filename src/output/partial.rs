@@ -9,8 +9,8 @@ use super::{Image, OutputError, Provenance};
 use crate::math::random::combine;
 use exr::image::{Blocks, Encoding};
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder,
-    ReadChannels, ReadLayers, SmallVec, WritableImage, read as reading,
+    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, LineOrder, ReadChannels, ReadLayers, SmallVec, WritableImage, read as reading,
 };
 use std::io::{BufReader, Read, Seek, Write};
 
@@ -50,8 +50,7 @@ pub fn write(
         line_order: LineOrder::Increasing,
     };
     let channels = SmallVec::from_iter([AnyChannel::new("word", FlatSamples::U32(words))]);
-    let sums =
-        Layer::new((ROW, rows), LayerAttributes::named(SUMS), encoding, AnyChannels::sort(channels));
+    let sums = Layer::new((ROW, rows), LayerAttributes::named(SUMS), encoding, AnyChannels::sort(channels));
     let whole = IntegerBounds::from_dimensions((1, 1));
     let mut file = exr::image::Image::from_layers(ImageAttributes::new(whole), vec![first, sums]);
     describe_picture(image, &mut file.attributes);
@@ -81,11 +80,13 @@ pub fn read(source: impl Read + Seek + Send) -> Result<(Provenance, Vec<u32>), P
     let Some(AttributeValue::Text(provenance)) = provenance else {
         return Err(PartialError::Other("an EXR file of another program".to_owned()));
     };
-    let provenance: Provenance = serde_json::from_str(&provenance.to_string())
-        .map_err(|error| PartialError::Other(format!("an EXR file with an attribute `{ATTRIBUTE}` of another kind: {error}")))?;
-    let sums = file.layer_data.into_iter().find(|layer| {
-        layer.attributes.layer_name.as_ref().is_some_and(|name| name.to_string() == SUMS)
-    });
+    let provenance: Provenance = serde_json::from_str(&provenance.to_string()).map_err(|error| {
+        PartialError::Other(format!("an EXR file with an attribute `{ATTRIBUTE}` of another kind: {error}"))
+    })?;
+    let sums = file
+        .layer_data
+        .into_iter()
+        .find(|layer| layer.attributes.layer_name.as_ref().is_some_and(|name| name.to_string() == SUMS));
     let words = sums.and_then(|layer| match layer.channel_data.list.into_iter().next()?.sample_data {
         FlatSamples::U32(words) => Some(words),
         _ => None,

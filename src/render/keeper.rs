@@ -84,7 +84,9 @@ impl<'a> Keeper<'a> {
             return Ok(None);
         }
         let name = checkpoint.path.display();
-        let failed = |error: String| RenderError::Io(format!("can't go on from {name}: {error}; delete it to begin anew"));
+        let failed = |error: String| {
+            RenderError::Io(format!("can't go on from {name}: {error}; delete it to begin anew"))
+        };
         let kept: Kept = kept::load(&checkpoint.path).map_err(|error| failed(error.to_string()))?;
         if let Some(difference) = kept.other_than(self.provenance, &self.form, &self.shards) {
             return Err(RenderError::Invalid(format!(

@@ -73,7 +73,13 @@ pub struct Kept {
 }
 
 impl Form {
-    pub(super) fn new(plan: &Plan, options: &Options, size: [u32; 2], assets: String, shown: (f64, u8)) -> Form {
+    pub(super) fn new(
+        plan: &Plan,
+        options: &Options,
+        size: [u32; 2],
+        assets: String,
+        shown: (f64, u8),
+    ) -> Form {
         let [width, height] = size;
         let (of, by) = match &options.shards {
             Some(shards) => (shards.of, By::of(shards, plan)),
@@ -217,7 +223,8 @@ impl Kept {
 
     /// How this differs from what is rendered now, if it does.
     pub(super) fn other_than(&self, provenance: &Provenance, form: &Form, shards: &[u32]) -> Option<String> {
-        let told = |what: &str, there: &str, here: &str| Some(format!("{what} is {there} there and {here} here"));
+        let told =
+            |what: &str, there: &str, here: &str| Some(format!("{what} is {there} there and {here} here"));
         let (there, here) = (&self.provenance, provenance);
         if there.software != here.software {
             return told("the program", &there.software, &here.software);

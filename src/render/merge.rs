@@ -1,7 +1,7 @@
 //! Parts of an image, rendered anywhere, put together: the same bits as from one machine.
 
 use super::kept::{self, Counts, Kept};
-use super::{image, By};
+use super::{By, image};
 use crate::film::{Accuracy, Film};
 use crate::output::partial::PartialError;
 use crate::output::{Bits, Image, PngSettings, Provenance};

@@ -174,7 +174,8 @@ impl Options {
 
     /// Refuses what this plan cannot give.
     pub(super) fn check(&self, plan: &Plan, width: u32, height: u32) -> Result<(), RenderError> {
-        if let Some(crop) = self.crop.filter(|crop| crop.x1 > width || crop.y1 > height || crop.pixels() == 0) {
+        if let Some(crop) = self.crop.filter(|crop| crop.x1 > width || crop.y1 > height || crop.pixels() == 0)
+        {
             let Window { x0, y0, x1, y1 } = crop;
             return Err(RenderError::Invalid(format!(
                 "--crop {x0},{y0},{x1},{y1} is not within the image of {width} × {height} pixels"

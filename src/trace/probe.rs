@@ -311,7 +311,8 @@ mod tests {
                 let mut part = Probe::default();
                 for i in (0..n).filter(|i| i % 3 == share) {
                     let bias = Some([DVec3::splat(value(i)), DVec3::ZERO]);
-                    let value = PixelValue { radiance: DVec3::splat(value(i)), bias, ..PixelValue::default() };
+                    let value =
+                        PixelValue { radiance: DVec3::splat(value(i)), bias, ..PixelValue::default() };
                     part.add(3, 4, &value, parts.of(5 + i));
                 }
                 joined.join(&part);

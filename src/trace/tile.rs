@@ -183,7 +183,8 @@ impl Tile {
         let i = self.index(x, y);
         let before = f64::from(self.passes[i]);
         // Welford 1962: M₂ += (x − old mean)·(x − new mean) = (x − old mean)²·n/(n + 1).
-        let off = if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i].value() / before };
+        let off =
+            if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i].value() / before };
         let square = off * off * (before / (before + 1.0));
         if let Some(squares) = self.squares.get_mut(i) {
             *squares += square;
@@ -292,8 +293,7 @@ impl Tile {
             let passes = self.passes[i];
             let sum = self.radiance[i].value();
             let mean = sum / f64::from(passes);
-            let others =
-                (sum.dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
+            let others = (sum.dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
             let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
             let (x, y) = (self.x + i as u32 % self.width, self.y + i as u32 / self.width);
             Measured { x, y, passes, mean, variance, others }

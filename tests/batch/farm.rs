@@ -5,7 +5,8 @@ use std::fs;
 use std::process::Command;
 
 fn written(lab: &Lab, engine: &str, more: &[&str]) -> Vec<(String, String)> {
-    let words = ["farm", "scene.ron", "--engine", engine, "--shards", "5", "-o", "out.exr", "--folder", "job"];
+    let words =
+        ["farm", "scene.ron", "--engine", engine, "--shards", "5", "-o", "out.exr", "--folder", "job"];
     lab.done(&[&words[..], more].concat());
     let mut files: Vec<_> = fs::read_dir(lab.path("job"))
         .expect("a folder")
@@ -26,10 +27,7 @@ fn the_scripts_for_slurm_render_and_merge() {
     let program = env!("CARGO_BIN_EXE_terrarium");
     let files = written(&lab, "slurm", &["--passes", "10", "--program", program, "--parts", "some parts"]);
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(
-        names,
-        ["terrarium-scene.array.sh", "terrarium-scene.merge.sh", "terrarium-scene.submit.sh"]
-    );
+    assert_eq!(names, ["terrarium-scene.array.sh", "terrarium-scene.merge.sh", "terrarium-scene.submit.sh"]);
     let array = &files[0].1;
     for line in ["--array=0-4", "--requeue", "--signal=B:USR1@60", "--cpus-per-task=4"] {
         assert!(array.contains(line), "{array}");
@@ -67,7 +65,9 @@ fn the_templates_of_other_engines_name_the_parts_and_the_limits() {
     }
     let files = written(&lab, "kubernetes", &["--image", "registry.example/terrarium:1"]);
     let render = files.iter().find(|(name, _)| name.contains("render.yaml")).expect("a manifest");
-    for part in ["completionMode: Indexed", "completions: 5", "\"--shard\", \"auto\"", "registry.example/terrarium:1"] {
+    for part in
+        ["completionMode: Indexed", "completions: 5", "\"--shard\", \"auto\"", "registry.example/terrarium:1"]
+    {
         assert!(render.1.contains(part), "{part} in {}", render.1);
     }
 }

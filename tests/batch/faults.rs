@@ -7,7 +7,9 @@ use std::fs;
 #[test]
 fn a_folder_that_cannot_be_written_is_told_before_the_first_ray() {
     let lab = Lab::new(CAUSTIC);
-    for words in [&["-o", "missing/out.exr"][..], &["-o", "/proc/out.exr"], &["--shard", "0/2", "-o", "missing/a.exr"]] {
+    for words in
+        [&["-o", "missing/out.exr"][..], &["-o", "/proc/out.exr"], &["--shard", "0/2", "-o", "missing/a.exr"]]
+    {
         let words = [&["render", "scene.ron", "--passes", "1000000"], words].concat();
         let began = std::time::Instant::now();
         let said = lab.fails(4, &words);

@@ -1,8 +1,8 @@
 //! Renders in parts and with interruptions: the same bits as in one go.
 
 mod crop;
-mod faults;
 mod farm;
+mod faults;
 mod merge;
 mod resume;
 
@@ -19,8 +19,8 @@ const CAUSTIC: &str = r#"(
     materials: { "glass": (transmission: 1, ior: 1.5), "floor": (diffuse: (0.7, 0.6, 0.5)) },
     lights: { "lamp": sphere(center: (1, 3, 0.5), radius: 0.3, radiance: (60, 55, 50)) },
     objects: [
-        (shape: sphere(radius: 0.6), material: "glass", transform: [translate(0, 0.8, 0)]),
-        (shape: plane(), material: "floor"),
+        (shape: sphere(radius: 0.6), material: "glass", transform: [translate((0, 0.8, 0))]),
+        (shape: box(), material: "floor", transform: [scale((12, 0.2, 12)), translate((0, -0.1, 0))]),
     ],
 )"#;
 
@@ -33,9 +33,9 @@ const ADAPTIVE: &str = r#"(
     materials: { "white": (diffuse: (0.8, 0.7, 0.6), reflection: 0.3) },
     lights: { "lamp": point(position: (1, 4, 3), intensity: (40, 40, 40)) },
     objects: [
-        (shape: cone(), material: "white", transform: [translate(-0.8, 0, 0)]),
-        (shape: cuboid(), material: "white", transform: [rotate_y(30), translate(0.9, 0.5, 0)]),
-        (shape: plane(), material: "white"),
+        (shape: cone(), material: "white", transform: [translate((-0.8, 0, 0))]),
+        (shape: box(), material: "white", transform: [rotate(axis: (0, 1, 0), deg: 30), translate((0.9, 0.5, 0))]),
+        (shape: box(), material: "white", transform: [scale((12, 0.2, 12)), translate((0, -0.1, 0))]),
     ],
 )"#;
 

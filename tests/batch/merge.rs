@@ -45,7 +45,8 @@ fn several_shards_at_once_and_the_engines_numbers_name_the_same_parts() {
     lab.render(&["--shards", "0-1,6", "--of", "8", "--passes", "8", "--out-dir", "parts"]);
     lab.render(&["--shards", "3-5", "--of", "8", "--passes", "8", "--out-dir", "parts"]);
     for (variable, i) in [("SLURM_ARRAY_TASK_ID", "2"), ("JOB_COMPLETION_INDEX", "7")] {
-        let words = ["render", "scene.ron", "--shard", "auto", "--of", "8", "--passes", "8", "--out-dir", "parts"];
+        let words =
+            ["render", "scene.ron", "--shard", "auto", "--of", "8", "--passes", "8", "--out-dir", "parts"];
         let output = lab.command(&words).env(variable, i).output().expect("the program runs");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
@@ -102,7 +103,10 @@ fn parts_that_are_there_make_an_honest_image() {
         lab.render(&["--passes", "16", "--shard", &format!("{i}/4"), "-o", &format!("{i}.exr")]);
     }
     let said = lab.done(&["merge", "0.exr", "1.exr", "-o", "half.exr", "--allow-missing"]);
-    assert!(said.contains("2 of 4 shards, 8 passes, error ") && said.contains("without shards 2-3"), "{said}");
+    assert!(
+        said.contains("2 of 4 shards, 8 passes, error ") && said.contains("without shards 2-3"),
+        "{said}"
+    );
     lab.render(&["--passes", "8", "-o", "first.exr"]);
     lab.done(&["diff", "half.exr", "first.exr", "--fail", "0", "-q"]);
     lab.done(&["merge", "0.exr", "3.exr", "1.exr", "-o", "most.exr", "--allow-missing"]);

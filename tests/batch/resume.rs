@@ -102,6 +102,7 @@ fn a_checkpoint_of_another_render_is_refused_with_both_hashes() {
     let words = [&WORK[..], &["-o", "out.exr", "--checkpoint", "10ms"]].concat();
     let mut child = begun(&lab, &words);
     while !lab.path("out.exr.checkpoint").exists() {
+        assert!(child.try_wait().expect("a child").is_none(), "it ended without a checkpoint");
         std::thread::sleep(Duration::from_millis(5));
     }
     let _ = child.kill();

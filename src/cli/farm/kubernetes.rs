@@ -44,7 +44,14 @@ kubectl apply -f {name}-merge.yaml
     ]
 }
 
-fn manifest(job: &Job, what: &str, policy: &str, words: &[String], bytes: u64, seconds: Option<u64>) -> String {
+fn manifest(
+    job: &Job,
+    what: &str,
+    policy: &str,
+    words: &[String],
+    bytes: u64,
+    seconds: Option<u64>,
+) -> String {
     let limit = seconds.map_or(String::new(), |s| format!("      activeDeadlineSeconds: {s}\n"));
     format!(
         "# All machines see the folder of the scene and the parts through the claim `terrarium`, at the same place.

@@ -30,7 +30,6 @@ impl SplitSums {
 }
 
 impl Tile {
-
     /// Appends the sums of a pixel, given by its number in the tile.
     fn put_pixel(&self, i: usize, words: &mut Words) {
         fn put<T: Record>(list: &[T], i: usize, words: &mut Words) {
