@@ -8,6 +8,7 @@ mod command_line;
 #[path = "diff/main.rs"]
 mod diff;
 mod forecast;
+mod frames;
 mod gallery;
 mod guide;
 #[path = "hard_cases/mod.rs"]
@@ -19,6 +20,7 @@ mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+mod paths;
 #[path = "photons/main.rs"]
 mod photons;
 #[path = "plan/main.rs"]

@@ -1,6 +1,7 @@
 //! The arguments, as typed.
 
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
+use super::frames::Frames;
 use super::study_args::{STUDY_EXAMPLES, StudyArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -25,6 +26,7 @@ Examples:
   terrarium render scene.ron -o image.exr
   terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
+  terrarium render scene.ron -o frames/####.png --frames 1-48
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
 
 const PLAN_EXAMPLES: &str = "\
@@ -87,7 +89,7 @@ pub enum Command {
     Completions { shell: clap_complete::Shell },
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct RenderArgs {
     /// The scene, .ron or .toml; `-` reads it from standard input
     pub scene: PathBuf,
@@ -101,6 +103,16 @@ pub struct RenderArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub work: Work,
+    /// Frames of an animated scene: `1-48`, `1-48:2` (every second), `1-3,7`. Each is a file of its own,
+    /// with the number in the place of `####` or `%04d` in its name; those that are there are left
+    #[arg(long, value_name = "FRAMES", conflicts_with = "frame")]
+    pub frames: Option<Frames>,
+    /// Only every so many of these frames, beginning with the first
+    #[arg(long, value_name = "N", requires = "frames", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frame_step: Option<u32>,
+    /// Render frames that are there already too
+    #[arg(long)]
+    pub again: bool,
     /// Edge of a tile in pixels. The image does not depend on it
     #[arg(long, value_name = "PIXELS", default_value_t = 32,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -130,7 +142,7 @@ pub struct RenderArgs {
 }
 
 /// What is rendered of a scene: the same for a plan as for the render.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Work {
     /// Independent passes whose mean is the image, or a range of them such as `8..16` (8 to 15), to be
     /// averaged with the others later; the scene's if not given
@@ -258,7 +270,7 @@ fn positive(value: f64) -> Result<f64, String> {
 }
 
 /// Overrides of the effects that the scene calls for.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Effects {
     /// Leave out effects: direct, shadows, soft_shadows, reflection, refraction, absorption, dispersion,
     /// highlights, textures, normal_maps, bump_maps, caustics, indirect, depth_of_field, environment,
@@ -291,11 +303,18 @@ impl Effects {
 }
 
 /// How a scene is read.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Reading {
     /// Replace a value of the scene, such as `materials.glass.ior=1.33`; may be given several times
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// The frame of an animated scene, from 1; the first if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frame: Option<u32>,
+    /// Let the scene read the files of this folder too, beside those of its own folder or project; may be
+    /// given several times
+    #[arg(long, value_name = "FOLDER")]
+    pub allow: Vec<PathBuf>,
     /// Format of a scene that comes from standard input
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub scene_format: Option<SceneFormat>,
@@ -365,6 +384,8 @@ pub enum ProgressChoice {
     None,
     /// One JSON object a line
     Json,
+    /// On standard output, for Open Job Description
+    Openjd,
 }
 
 impl From<SceneFormat> for terrarium::description::Format {

@@ -4,9 +4,12 @@
 //! under temporary names, the dependency file, then the images' names. Whatever fails, a file that
 //! was there before stays as it was.
 
-use super::args::RenderArgs;
+use super::args::{ProgressChoice, RenderArgs};
 use super::check::{files, load_and_report, refused, set_threads};
 use super::exit::{Failure, USAGE};
+use super::finished::finished;
+use super::frames::{self, Place};
+use super::machine;
 use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
 use super::summary::{Summary, worst};
@@ -20,18 +23,37 @@ use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
+    set_threads(args.work.threads)?;
+    let outcome = frames::split(args, terminal)
+        .and_then(|calls| frames::each(&calls, terminal, |call, place| frame(call, place, terminal)));
+    if let (Err(failure), ProgressChoice::Openjd) = (&outcome, args.progress) {
+        report::print(&machine::openjd_fail(&failure.message))?;
+    }
+    outcome
+}
+
+/// Renders the scene, or one frame of it.
+fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
     let targets = targets(args)?;
     refuse_mixed_up_files(args, &targets)?;
     let stamp = args.stamp.then(stamp).transpose()?;
-    set_threads(args.work.threads)?;
     let loaded =
         load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
     refuse_overwriting(&targets, &loaded.files)?;
+    let plan = Plan::new(&loaded.scene, &options(args, began).request()).map_err(RenderError::from)?;
+    let reporter =
+        Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet).of_frame(place);
+    if place.frame.is_some() && !args.again && finished(args, &targets, &loaded, &plan) {
+        if !args.quiet {
+            terminal.say(&already(args));
+        }
+        reporter.complete();
+        return Ok(());
+    }
     probe(args, &targets)?;
-    let reporter = Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet);
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene, began)?);
+        terminal.say(&announcement(args, &loaded.scene, &plan));
     }
 
     let mut rendered = render::render(&loaded, &options(args, began), &reporter).map_err(|error| {
@@ -58,7 +80,9 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     rendered.warnings.iter().for_each(|warning| terminal.warning(warning));
     let written = worst(&written);
     let summary = Summary {
+        v: machine::VERSION,
         version: env!("CARGO_PKG_VERSION"),
+        frame: place.frame,
         scene: args.scene.display().to_string(),
         scene_hash: &rendered.provenance.scene_hash,
         seed: rendered.provenance.seed,
@@ -100,13 +124,23 @@ fn options(args: &RenderArgs, began: Instant) -> Options {
     Options { tile: args.tile, strict: args.strict, began: Some(began), ..args.work.options() }
 }
 
+/// That nothing is left to do for a frame.
+fn already(args: &RenderArgs) -> String {
+    let names: Vec<String> = args.output.iter().map(|path| path.display().to_string()).collect();
+    let frame = args.reading.frame.unwrap_or(1);
+    format!(
+        "frame {frame}: {}: there already, of the same scene and settings (--again renders it)",
+        names.join(", ")
+    )
+}
+
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<String, Failure> {
-    let plan = Plan::new(scene, &options(args, began).request()).map_err(RenderError::from)?;
+fn announcement(args: &RenderArgs, scene: &Scene, plan: &Plan) -> String {
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
-    let until = until(&plan);
+    let until = until(plan);
+    let frame = args.reading.frame.map_or(String::new(), |frame| format!(", frame {frame}"));
     let mut line = format!(
-        "{}: {} × {} pixels, {until}, {}",
+        "{}{frame}: {} × {} pixels, {until}, {}",
         args.scene.display(),
         scene.image.width,
         scene.image.height,
@@ -115,7 +149,7 @@ fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<Stri
     if !plan.overrides.is_empty() {
         line += &format!(", {}", plan.overrides);
     }
-    Ok(line)
+    line
 }
 
 /// When the render will end.

@@ -1,6 +1,6 @@
 //! Where the images go: named files, each once, and standard output.
 
-use super::args::{ImageFormat, RenderArgs};
+use super::args::{ImageFormat, ProgressChoice, RenderArgs};
 use super::exit::{Failure, USAGE};
 use std::io::{self, Cursor, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -51,6 +51,11 @@ pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
         if args.stats.as_deref() == Some(Path::new("-")) {
             return Err(Failure::new(USAGE, "the image and the statistics can't both go to standard output"));
         }
+    }
+    let stats = args.stats.as_deref() == Some(Path::new("-"));
+    let taken = stats || targets.iter().any(|target| matches!(target, Target::Stdout(_)));
+    if taken && args.progress == ProgressChoice::Openjd {
+        return Err(Failure::new(USAGE, "OpenJD's progress goes to standard output, and nothing else can"));
     }
     Ok(targets)
 }

@@ -2,6 +2,7 @@
 
 use super::Planned;
 use crate::build::BuildError;
+use crate::film::Film;
 use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request, Until};
 use crate::trace::{Probes, Wants};
 use std::ops::Range;
@@ -201,6 +202,8 @@ pub trait Progress: Sync {
     fn planned(&self, _: &Planned) {}
     /// The picture's error, as it is and as it should become.
     fn error(&self, _: f64, _: f64) {}
+    /// The picture of so many passes, between two of them.
+    fn picture(&self, _: &Film, _passes: u32) {}
     /// Something worth a line.
     fn note(&self, message: &str);
 }

@@ -66,6 +66,7 @@ pub(super) fn trace(
         let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(world, passes.end)));
         tallies.iter().for_each(|t| tally.add(t));
         begin = passes.end;
+        progress.picture(&film, begin - plan.first_pass);
         if stop.now(begin - plan.first_pass, &film, progress) {
             break;
         }
