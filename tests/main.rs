@@ -33,3 +33,4 @@ mod shapes;
 #[path = "study/main.rs"]
 mod study;
 mod textures;
+mod watching;

@@ -15,7 +15,7 @@ use terrarium::description::{Format, PROJECT_MARK, Reach, Terms, load_str_on};
 
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const LIBRARY: &str = "(materials: { \"spare\": (diffuse: 0.5) })";
-const CAMERA: &str = "camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 4, height: 4)";
+const CAMERA: &str = "camera: (eye: (0, 0, 5), target: (0, 0, 0)), ambient: 1, image: (width: 4, height: 4)";
 
 /// `home/scenes` is the scene's folder; `home/secret.*` lie outside, `home/allowed` may be allowed.
 fn home() -> TempDir {
@@ -284,7 +284,7 @@ fn sizes_and_nesting_are_bounded_before_anything_is_allocated() {
         (format!("({CAMERA}, include: [{}])", wide.join(", ")), "or 256 files"),
         (
             format!("({CAMERA}, include: [\"large0.ron\", \"large1.ron\", \"large2.ron\"])"),
-            "more than 256 MiB, with all that they include",
+            "more than 256 mib, with all that they include",
         ),
         (nested, "nest"),
     ] {

@@ -29,6 +29,13 @@ Examples:
   terrarium render scene.ron -o frames/####.png --frames 1-48
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
 
+const WATCH_EXAMPLES: &str = "\
+Examples:
+  terrarium watch scene.ron --set image.width=320 --set image.height=180
+  terrarium watch scene.ron --display-server localhost:14158
+
+The picture is drawn in the terminal, where standard output is one that shows 24-bit colour.";
+
 const PLAN_EXAMPLES: &str = "\
 Examples:
   terrarium plan scene.ron
@@ -66,6 +73,9 @@ pub enum Command {
     /// Render a scene to one or several images
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Render a scene pass by pass, and anew whenever it or a file that it uses changes
+    #[command(after_help = WATCH_EXAMPLES)]
+    Watch(Box<WatchArgs>),
     /// Tell what a render would do, why, and what time and memory it would take
     #[command(after_help = PLAN_EXAMPLES)]
     Plan(Box<PlanArgs>),
@@ -127,6 +137,9 @@ pub struct RenderArgs {
     /// Write statistics as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
+    /// Show the picture while it is rendered, in a viewer that speaks tev's protocol
+    #[arg(long, value_name = "HOST:PORT")]
+    pub display_server: Option<String>,
     /// Write a rule for make: which files the images depend on
     #[arg(long, value_name = "FILE")]
     pub depfile: Option<PathBuf>,
@@ -192,6 +205,22 @@ impl Work {
             ..Options::default()
         }
     }
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct WatchArgs {
+    /// The scene, .ron or .toml
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub work: Work,
+    /// Show the picture in a viewer that speaks tev's protocol too
+    #[arg(long, value_name = "HOST:PORT")]
+    pub display_server: Option<String>,
+    /// End after so many finished renders
+    #[arg(long, value_name = "N")]
+    pub renders: Option<u32>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -4,6 +4,7 @@
 //! for; progress and messages go to standard error.
 
 mod args;
+mod blocks;
 mod check;
 mod convert;
 mod diff;
@@ -22,6 +23,8 @@ mod study;
 mod study_args;
 mod summary;
 mod target;
+mod viewer;
+mod watch;
 
 use args::{Args, Command};
 use clap::{CommandFactory, FromArgMatches};
@@ -60,6 +63,7 @@ pub fn run() -> ExitCode {
 fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     match &args.command {
         Command::Render(args) => render::run(args, terminal),
+        Command::Watch(args) => watch::run(args, terminal),
         Command::Plan(args) => plan::run(args, terminal),
         Command::Study(args) => study::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),

@@ -8,10 +8,13 @@ use super::frames::Place;
 use super::machine::{self, DONE, State};
 use super::plan;
 use super::report::{self, Terminal};
+use super::viewer::Viewer;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use terrarium::film::Film;
+use terrarium::output::Image;
 use terrarium::render::{Planned, Progress};
 
 /// Plain lines come after this time at the latest.
@@ -29,6 +32,7 @@ pub struct Reporter {
     stage: Mutex<Option<Stage>>,
     /// The picture's error, as it was told last.
     err: Mutex<Option<f64>>,
+    viewer: Option<Viewer>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +73,7 @@ impl Reporter {
             place: Place { of: 1, ..Place::default() },
             stage: Mutex::new(None),
             err: Mutex::new(None),
+            viewer: None,
         }
     }
 
@@ -80,6 +85,18 @@ impl Reporter {
     /// The same, telling the plan once it is known unless that is not wanted.
     pub fn telling_plan(self, wanted: bool) -> Self {
         Reporter { tells_plan: wanted, ..self }
+    }
+
+    /// The same, with the picture in a viewer.
+    pub fn shown_by(self, viewer: Option<Viewer>) -> Self {
+        Reporter { viewer, ..self }
+    }
+
+    /// Shows the finished picture, where it is shown.
+    pub fn show(&self, image: &Image) {
+        if let Some(viewer) = &self.viewer {
+            viewer.finish(image, &self.terminal);
+        }
     }
 
     /// The images have their names: the whole is done.
@@ -222,13 +239,17 @@ impl Progress for Reporter {
         }
     }
 
-    fn picture(&self, film: &Film, passes: u32) {
+    fn picture(&self, film: &Film, passes: u32) -> ControlFlow<()> {
+        if let Some(viewer) = &self.viewer {
+            viewer.show(film, &self.terminal);
+        }
         // what it takes to know is little beside as many passes again
         let told = matches!(self.form, Form::Json | Form::OpenJd);
         if told && passes >= 4 && passes.is_power_of_two() {
             let error = film.accuracy().map(|accuracy| accuracy.error);
             *self.err.lock().unwrap_or_else(PoisonError::into_inner) = error;
         }
+        ControlFlow::Continue(())
     }
 
     fn note(&self, message: &str) {

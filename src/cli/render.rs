@@ -14,6 +14,7 @@ use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
+use super::viewer::Viewer;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
@@ -42,8 +43,11 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
         load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
     refuse_overwriting(&targets, &loaded.files)?;
     let plan = Plan::new(&loaded.scene, &options(args, began).request()).map_err(RenderError::from)?;
-    let reporter =
-        Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet).of_frame(place);
+    let viewer = args.display_server.as_deref().map(|address| Viewer::new(address, &args.scene));
+    let reporter = Reporter::new(args.progress, args.quiet, terminal)
+        .telling_plan(!args.quiet)
+        .of_frame(place)
+        .shown_by(viewer.transpose()?);
     if place.frame.is_some() && !args.again && finished(args, &targets, &loaded, &plan) {
         if !args.quiet {
             terminal.say(&already(args));
@@ -75,6 +79,7 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     // before the images: with them, make would take the old dependencies for current
     write_depfile(args, &targets, &loaded, &rendered)?;
     staged.into_iter().try_for_each(target::Staged::commit)?;
+    reporter.show(&rendered.image);
     reporter.complete();
 
     rendered.warnings.iter().for_each(|warning| terminal.warning(warning));

@@ -6,6 +6,7 @@
 pub mod atomic;
 mod camera_view;
 pub mod depfile;
+mod display;
 pub mod exr;
 mod image;
 pub mod png;
@@ -14,6 +15,7 @@ pub mod srgb;
 
 pub use self::image::{Image, Layer};
 pub use camera_view::CameraView;
+pub use display::Display;
 pub use png::{Bits, PngSettings};
 pub use provenance::{COLOR_SPACE, Provenance, Stamp, hex};
 

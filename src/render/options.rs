@@ -5,7 +5,7 @@ use crate::build::BuildError;
 use crate::film::Film;
 use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request, Until};
 use crate::trace::{Probes, Wants};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::str::FromStr;
 use std::time::Instant;
 
@@ -202,8 +202,10 @@ pub trait Progress: Sync {
     fn planned(&self, _: &Planned) {}
     /// The picture's error, as it is and as it should become.
     fn error(&self, _: f64, _: f64) {}
-    /// The picture of so many passes, between two of them.
-    fn picture(&self, _: &Film, _passes: u32) {}
+    /// The picture of so many passes, between two of them; a break ends the render there.
+    fn picture(&self, _: &Film, _passes: u32) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
     /// Something worth a line.
     fn note(&self, message: &str);
 }

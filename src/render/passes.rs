@@ -66,7 +66,9 @@ pub(super) fn trace(
         let (tallies, next) = rayon::join(trace, || another.then(|| stages.pass(world, passes.end)));
         tallies.iter().for_each(|t| tally.add(t));
         begin = passes.end;
-        progress.picture(&film, begin - plan.first_pass);
+        if progress.picture(&film, begin - plan.first_pass).is_break() {
+            break;
+        }
         if stop.now(begin - plan.first_pass, &film, progress) {
             break;
         }

@@ -8,9 +8,13 @@ use crate::description::tree::{Index, Node, Path, Span, Value};
 use crate::description::{Camera, Vector};
 use glam::DVec3;
 
-/// Puts the values of a frame into `root`. Mistakes are reported.
+/// Puts the values of a frame into `root`. Mistakes are reported; an animation in which some have been
+/// reported already is left alone.
 pub(super) fn apply(reading: &mut Reading, root: &mut Node, animation: &Animation, frame: u32) {
     let place = Path::of("animation");
+    if root.entry("animation").is_some_and(|entry| has_hole(&entry.node)) {
+        return;
+    }
     let mut mistakes = settings(animation, frame);
     let mut edits = Vec::new();
     for (path, track) in animation.keys.iter() {
@@ -82,6 +86,17 @@ fn settings(animation: &Animation, frame: u32) -> Vec<(Path, String)> {
         mistakes.push((place.key("orbit").key("axis"), "this is no direction".to_owned()));
     }
     mistakes
+}
+
+/// Whether something in it was wrong and has been reported.
+fn has_hole(node: &Node) -> bool {
+    match &node.value {
+        Value::Hole => true,
+        Value::Seq(items) => items.iter().any(has_hole),
+        Value::Map(entries, _) => entries.iter().any(|entry| has_hole(&entry.node)),
+        Value::Tagged(_, _, content) => has_hole(content),
+        _ => false,
+    }
 }
 
 fn span(root: &Node, place: &Path) -> Span {
