@@ -239,7 +239,7 @@ fn watch_renders_anew_on_every_change_and_outlives_mistakes() {
     // an included file, and a mistake in it
     change("white.ron", &WHITE.replace("0.8", "-0.8"));
     watching.expect("changed: white.ron");
-    watching.expect("-0.8 is below 0");
+    watching.expect("-0.8 is outside [0, 1]");
     change("white.ron", &WHITE.replace("0.8", "0.75"));
     watching.expect("changed: white.ron");
     watching.expect("33 × 150 pixels");
