@@ -92,6 +92,22 @@ fn what_stands_still_does_not_flicker() {
     assert_eq!(fs::read(folder.path().join("still.exr")).ok(), fs::read(folder.path().join("0001.exr")).ok());
 }
 
+/// The showpiece turns from frame to frame; its picture is that of a scene without frames.
+#[test]
+fn the_first_frame_of_the_showpiece_is_the_still() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/terrarium.ron").display().to_string();
+    let small = format!("render {scene} -q --passes 1 --set image.width=48 --set image.height=27");
+    let still =
+        "--set animation.keys={} --set objects.terrarium.transform=[scale(0.2),translate((0,0.1594308,0))]";
+    for call in ["-o first.exr", &format!("{still} -o still.exr"), "--frame 2 -o second.exr"] {
+        let done = run(&folder, &format!("{small} {call}"));
+        assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));
+    }
+    let [first, still, second] = ["first.exr", "still.exr", "second.exr"].map(|name| bits(&folder, name));
+    assert!(first == still && first != second);
+}
+
 #[test]
 fn finished_frames_are_left_and_others_are_not() {
     let folder = folder(SCENE);

@@ -52,7 +52,7 @@ impl std::str::FromStr for Frames {
 ///
 /// # Errors
 /// Several frames would be one file; a frame that the scene's animation does not have.
-pub fn split(args: &RenderArgs, terminal: &Terminal) -> Result<Vec<RenderArgs>, Failure> {
+pub fn split(args: &RenderArgs) -> Result<Vec<RenderArgs>, Failure> {
     let frames = match (&args.frames, args.reading.frame) {
         (Some(Frames(frames)), _) => {
             let step = args.frame_step.unwrap_or(1) as usize;
@@ -73,13 +73,13 @@ pub fn split(args: &RenderArgs, terminal: &Terminal) -> Result<Vec<RenderArgs>, 
         if args.scene == Path::new("-") {
             return Err(Failure::new(USAGE, "several frames need a scene that can be read several times"));
         }
-        refuse_missing(args, frames.iter().copied().max().unwrap_or(1), terminal)?;
+        refuse_missing(args, frames.iter().copied().max().unwrap_or(1))?;
     }
     Ok(frames.into_iter().map(|frame| one(args, frame)).collect())
 }
 
 /// A frame that is not there is no reason to render those before it.
-fn refuse_missing(args: &RenderArgs, last: u32, _: &Terminal) -> Result<(), Failure> {
+fn refuse_missing(args: &RenderArgs, last: u32) -> Result<(), Failure> {
     let reading = Reading { frame: None, ..args.reading.clone() };
     let Ok(loaded) = load(&args.scene, &reading, Unread::default())? else { return Ok(()) };
     match loaded.animation {

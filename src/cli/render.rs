@@ -25,7 +25,7 @@ use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     set_threads(args.work.threads)?;
-    let outcome = frames::split(args, terminal)
+    let outcome = frames::split(args)
         .and_then(|calls| frames::each(&calls, terminal, |call, place| frame(call, place, terminal)));
     if let (Err(failure), ProgressChoice::Openjd) = (&outcome, args.progress) {
         report::print(&machine::openjd_fail(&failure.message))?;

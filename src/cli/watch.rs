@@ -18,7 +18,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
-use terrarium::description::{Loaded, Report};
+use terrarium::description::{Kind, Loaded};
 use terrarium::film::Film;
 use terrarium::output::Image;
 use terrarium::plan::Plan;
@@ -27,6 +27,8 @@ use terrarium::trace::Layer;
 
 /// Between two looks at the files.
 const LOOK: Duration = Duration::from_millis(100);
+/// A scene that lacks a file is read again after this time.
+const MISSING: Duration = Duration::from_secs(1);
 /// Between two pictures in the terminal.
 const DRAW: Duration = Duration::from_millis(250);
 
@@ -36,50 +38,51 @@ pub fn run(args: &WatchArgs, terminal: &Terminal) -> Result<(), Failure> {
     let viewer =
         args.display_server.as_deref().map(|address| Viewer::new(address, &args.scene)).transpose()?;
     let screen = io::stdout().is_terminal().then(screen).flatten();
-    let mut files = vec![args.scene.clone()];
-    let mut finished = 0;
+    let (mut files, mut finished, mut told) = (vec![args.scene.clone()], 0, None);
     loop {
         let before = Snapshot::of(&files);
-        let looked = match load(&args.scene, &args.reading, args.work.options().overrides.unread())? {
-            Ok(loaded) => {
-                files = used(&loaded);
-                // what changed while the scene was read shows against the first look
-                let since =
-                    Snapshot { known: before.known.into_iter().chain(Snapshot::of(&files).known).collect() };
-                let view = View {
-                    args,
-                    terminal,
-                    loaded: &loaded,
-                    viewer: viewer.as_ref(),
-                    screen,
-                    since,
-                    drawn: Mutex::default(),
-                };
-                match view.render() {
-                    Ok(true) => finished += 1,
-                    Ok(false) => {}
-                    Err(error) => tell(&loaded, error, terminal),
+        let (since, patience) =
+            match load(&args.scene, &args.reading, args.work.options().overrides.unread())? {
+                Ok(loaded) => {
+                    told = None;
+                    files = used(&loaded);
+                    let since = before.and(&files);
+                    let drawn = Mutex::default();
+                    let view = View {
+                        args,
+                        terminal,
+                        loaded: &loaded,
+                        viewer: viewer.as_ref(),
+                        screen,
+                        since,
+                        drawn,
+                    };
+                    match view.render() {
+                        Ok(true) => finished += 1,
+                        Ok(false) => {}
+                        Err(error) => tell(&loaded, error, terminal),
+                    }
+                    (view.since, None)
                 }
-                view.since
-            }
-            Err(report) => {
-                tell_report(&report, terminal);
-                let named = report.diagnostics.iter().filter_map(|found| found.file.clone());
-                files.extend(named.filter(|file| !files.contains(file)).collect::<Vec<_>>());
-                let known = before.known.into_iter();
-                Snapshot { known: known.chain(Snapshot::of(&files).known).collect() }
-            }
-        };
+                Err(report) => {
+                    if told.as_ref() != Some(&report) {
+                        report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
+                    }
+                    let named = report.diagnostics.iter().filter_map(|found| found.file.clone());
+                    files.extend(named.filter(|file| !files.contains(file)).collect::<Vec<_>>());
+                    // a file that is missing may come
+                    let missing = report.errors().any(|error| error.kind == Kind::Io);
+                    told = Some(report);
+                    (before.and(&files), missing.then_some(MISSING))
+                }
+            };
         if args.renders.is_some_and(|renders| finished >= renders) {
             return Ok(());
         }
-        let changed = looked.wait();
-        terminal.say(&format!("changed: {}", changed.display()));
+        if let Some(changed) = since.wait(patience) {
+            terminal.say(&format!("changed: {}", changed.display()));
+        }
     }
-}
-
-fn tell_report(report: &Report, terminal: &Terminal) {
-    report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
 }
 
 fn tell(loaded: &Loaded, error: RenderError, terminal: &Terminal) {
@@ -114,12 +117,22 @@ impl Snapshot {
         self.known.iter().find(|(file, known)| state(file) != **known).map(|(file, _)| file.clone())
     }
 
-    fn wait(&self) -> PathBuf {
+    /// The same with further files; of one that is known already, as it was then.
+    fn and(self, files: &[PathBuf]) -> Snapshot {
+        Snapshot { known: Snapshot::of(files).known.into_iter().chain(self.known).collect() }
+    }
+
+    /// Waits for a change, or for so long.
+    fn wait(&self, patience: Option<Duration>) -> Option<PathBuf> {
+        let began = Instant::now();
         loop {
             if let Some(file) = self.changed() {
                 // an editor may be writing still
                 std::thread::sleep(LOOK / 2);
-                return file;
+                return Some(file);
+            }
+            if patience.is_some_and(|patience| began.elapsed() >= patience) {
+                return None;
             }
             std::thread::sleep(LOOK);
         }

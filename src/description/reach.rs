@@ -41,6 +41,13 @@ impl Reach {
         Ok(Reach { roots: Some(roots) })
     }
 
+    /// Adds a folder whose files are the program's own. One that is not there adds nothing.
+    pub fn allow(&mut self, folder: &Path) {
+        if let (Some(roots), Ok(folder)) = (&mut self.roots, here(folder).canonicalize()) {
+            roots.push(folder);
+        }
+    }
+
     /// Opens a regular file within reach.
     ///
     /// # Errors
