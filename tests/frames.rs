@@ -185,6 +185,12 @@ fn a_failing_frame_does_not_stop_the_others_and_is_named() {
     assert_eq!(run(&folder, "check scene.ron --frame 3").code, Some(0));
     assert_eq!(run(&folder, "plan scene.ron --frame 4 --passes 1").code, Some(0));
     assert_eq!(run(&folder, "plan scene.ron --frame 5 --passes 1").code, Some(2));
+    // a scene is converted with all of its frames
+    assert_eq!(run(&folder, "convert scene.ron a.toml").code, Some(0));
+    assert!(
+        fs::read_to_string(folder.path().join("a.toml")).is_ok_and(|text| text.contains("camera.fov_deg"))
+    );
+    assert_eq!(run(&folder, "convert scene.ron a.toml --frame 3").code, Some(2));
     // a file that cannot be written, and one that can
     fs::create_dir(folder.path().join("03.png")).expect("made");
     let done = run(&folder, "render scene.ron -o ##.png --frames 3-4 --passes 1");

@@ -132,7 +132,7 @@ fn the_display_server_shows_what_the_file_holds() {
     assert_eq!((*width, pixels.len()), (image.width, image.width * image.height));
     assert!((0..r.len()).all(|i| pixels[i] == [r[i], g[i], b[i]]));
     // three bands of rows, and the first pass before the last
-    assert!(packets >= 1 + 2 * 3, "{packets} packets");
+    assert!(packets > 2 * 3, "{packets} packets");
 }
 
 /// The wall time of a render that is shown at an address, which must succeed and be whole.

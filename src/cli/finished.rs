@@ -35,7 +35,11 @@ fn is_it(path: &Path, format: Format, args: &RenderArgs, loaded: &Loaded, plan: 
         Format::Exr => of_exr(path)?,
         Format::Png => (of_png(path)?, Vec::new()),
     };
-    let found: Provenance = serde_json::from_str(&text).ok()?;
+    let said: serde_json::Value = serde_json::from_str(&text).ok()?;
+    if said.get("partial").is_some() {
+        return Some(false);
+    }
+    let found: Provenance = serde_json::from_value(said).ok()?;
     let wanted = Provenance::new(&loaded.hash, plan.seed, found.passes);
     let same = found.software == wanted.software
         && found.scene_hash == hex(&loaded.hash)
@@ -70,10 +74,9 @@ fn layers(args: &RenderArgs, format: Format, channels: &[String]) -> bool {
 fn of_exr(path: &Path) -> Option<(String, Vec<String>)> {
     let meta = exr::meta::MetaData::read_from_buffered(BufReader::new(File::open(path).ok()?), false).ok()?;
     let header = meta.headers.first()?;
-    let attributes = header.own_attributes.other.iter().chain(&header.shared_attributes.other);
-    let text = attributes
-        .filter(|(name, _)| name.to_string() == output::exr::ATTRIBUTE)
-        .find_map(|(_, value)| value.to_text().ok().map(|text| text.to_string()))?;
+    let name = exr::prelude::Text::from(output::exr::ATTRIBUTE);
+    let [own, shared] = [&header.own_attributes.other, &header.shared_attributes.other];
+    let text = own.get(&name).or_else(|| shared.get(&name))?.to_text().ok()?.to_string();
     Some((text, header.channels.list.iter().map(|channel| channel.name.to_string()).collect()))
 }
 
