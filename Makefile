@@ -121,7 +121,7 @@ turntable: build
 	    ffmpeg -nostdin -loglevel error -y -framerate 12 -pattern_type glob -i '$(TURNS)/*.png' \
 	        $(if $(filter mp4,$(FORMAT)),-pix_fmt yuv420p,-loop 0) '$(TURNS).$(FORMAT)' && echo 'wrote $(TURNS).$(FORMAT)'; \
 	elif [ '$(FORMAT)' != mp4 ] && python3 -c 'import PIL' 2>/dev/null; then \
-	    python3 benches/film.py '$(TURNS)' '$(TURNS).$(FORMAT)' 12; \
+	    python3 '$(dir $(SELF))benches/film.py' '$(TURNS)' '$(TURNS).$(FORMAT)' 12; \
 	else \
 	    echo "the frames are in $(TURNS); a film of them needs ffmpeg$(if $(filter mp4,$(FORMAT)),, or Python's PIL)"; \
 	fi

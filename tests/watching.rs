@@ -271,6 +271,15 @@ fn a_change_ends_a_render_that_is_under_way() {
 }
 
 #[test]
+fn what_cannot_be_watched_is_refused() {
+    let folder = folder();
+    for call in ["watch - --scene-format ron", "watch scene.ron --display-server :9"] {
+        let done = terrarium(&folder, call).output().expect("the program runs");
+        assert_eq!(done.status.code(), Some(2), "{call}: {}", String::from_utf8_lossy(&done.stderr));
+    }
+}
+
+#[test]
 fn watch_shows_its_pictures_in_a_viewer_and_can_end() {
     let folder = folder();
     let (address, thread) = viewer();

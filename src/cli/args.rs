@@ -1,8 +1,9 @@
 //! The arguments, as typed.
 
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
-use super::frames::Frames;
+use super::frame_args::FrameArgs;
 use super::study_args::{STUDY_EXAMPLES, StudyArgs};
+use super::watch_args::{WATCH_EXAMPLES, WatchArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use terrarium::plan::{Effect, Overrides, Until};
@@ -28,13 +29,6 @@ Examples:
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
   terrarium render scene.ron -o frames/####.png --frames 1-48
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
-
-const WATCH_EXAMPLES: &str = "\
-Examples:
-  terrarium watch scene.ron --set image.width=320 --set image.height=180
-  terrarium watch scene.ron --display-server localhost:14158
-
-The picture is drawn in the terminal, where standard output is one that shows 24-bit colour.";
 
 const PLAN_EXAMPLES: &str = "\
 Examples:
@@ -113,16 +107,8 @@ pub struct RenderArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub work: Work,
-    /// Frames of an animated scene: `1-48`, `1-48:2` (every second), `1-3,7`. Each is a file of its own,
-    /// with the number in the place of `####` or `%04d` in its name; those that are there are left
-    #[arg(long, value_name = "FRAMES", conflicts_with = "frame")]
-    pub frames: Option<Frames>,
-    /// Only every so many of these frames, beginning with the first
-    #[arg(long, value_name = "N", requires = "frames", value_parser = clap::value_parser!(u32).range(1..))]
-    pub frame_step: Option<u32>,
-    /// Render frames that are there already too
-    #[arg(long)]
-    pub again: bool,
+    #[command(flatten)]
+    pub several: FrameArgs,
     /// Edge of a tile in pixels. The image does not depend on it
     #[arg(long, value_name = "PIXELS", default_value_t = 32,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -205,22 +191,6 @@ impl Work {
             ..Options::default()
         }
     }
-}
-
-#[derive(Debug, ClapArgs)]
-pub struct WatchArgs {
-    /// The scene, .ron or .toml
-    pub scene: PathBuf,
-    #[command(flatten)]
-    pub reading: Reading,
-    #[command(flatten)]
-    pub work: Work,
-    /// Show the picture in a viewer that speaks tev's protocol too
-    #[arg(long, value_name = "HOST:PORT")]
-    pub display_server: Option<String>,
-    /// End after so many finished renders
-    #[arg(long, value_name = "N")]
-    pub renders: Option<u32>,
 }
 
 #[derive(Debug, ClapArgs)]

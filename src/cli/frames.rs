@@ -1,66 +1,21 @@
-//! `--frames`: which frames of an animation are rendered, into files of which names, and what is said
-//! when some of them fail.
+//! Several frames of an animation: into files of which names, and what is said when some of them fail.
 
 use super::args::{Reading, RenderArgs};
 use super::check::load;
 use super::exit::{Failure, USAGE};
+use super::frame_args::Frames;
 use super::report::Terminal;
 use std::path::{Path, PathBuf};
 use terrarium::description::Unread;
 
-/// Frames in the order in which they were asked for, each once.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frames(Vec<u32>);
-
-/// More are not asked for at once.
-const MOST: usize = 1_000_000;
-
-impl std::str::FromStr for Frames {
-    type Err = String;
-
-    /// `7`, `1-48`, `1-48:2`, and several of these with commas between.
-    fn from_str(text: &str) -> Result<Frames, String> {
-        let mut frames = Vec::new();
-        for part in text.split(',') {
-            let number = |text: &str| {
-                let found = text.trim().parse::<u32>().ok().filter(|n| *n >= 1);
-                found.ok_or_else(|| format!("`{part}` is neither a frame (7) nor frames (1-48, 1-48:2)"))
-            };
-            let (range, step) = match part.split_once(':') {
-                Some((range, step)) => (range, number(step)?),
-                None => (part, 1),
-            };
-            let (first, last) = match range.split_once('-') {
-                Some((first, last)) => (number(first)?, number(last)?),
-                None => (number(range)?, number(range)?),
-            };
-            if first > last {
-                return Err(format!("`{part}`: the first frame is behind the last"));
-            }
-            if frames.len() + ((last - first) / step) as usize >= MOST {
-                return Err(format!("more than {MOST} frames"));
-            }
-            frames.extend((first..=last).step_by(step as usize));
-        }
-        let mut seen = std::collections::HashSet::new();
-        frames.retain(|frame| seen.insert(*frame));
-        Ok(Frames(frames))
-    }
-}
-
-/// The calls that render one frame each.
+/// The frames to be rendered; none stands for a scene without its frame named.
 ///
 /// # Errors
 /// Several frames would be one file; a frame that the scene's animation does not have.
-pub fn split(args: &RenderArgs) -> Result<Vec<RenderArgs>, Failure> {
-    let frames = match (&args.frames, args.reading.frame) {
-        (Some(Frames(frames)), _) => {
-            let step = args.frame_step.unwrap_or(1) as usize;
-            frames.iter().copied().step_by(step).collect()
-        }
-        (None, Some(frame)) => vec![frame],
-        (None, None) => return Ok(vec![args.clone()]),
-    };
+pub fn asked(args: &RenderArgs) -> Result<Vec<Option<u32>>, Failure> {
+    let Some(Frames(frames)) = &args.several.frames else { return Ok(vec![args.reading.frame]) };
+    let step = args.several.frame_step.unwrap_or(1) as usize;
+    let frames: Vec<Option<u32>> = frames.iter().copied().step_by(step).map(Some).collect();
     if frames.len() > 1 {
         let side = args.stats.iter().chain(&args.depfile);
         for path in args.output.iter().chain(side) {
@@ -73,9 +28,9 @@ pub fn split(args: &RenderArgs) -> Result<Vec<RenderArgs>, Failure> {
         if args.scene == Path::new("-") {
             return Err(Failure::new(USAGE, "several frames need a scene that can be read several times"));
         }
-        refuse_missing(args, frames.iter().copied().max().unwrap_or(1))?;
+        refuse_missing(args, frames.iter().flatten().copied().max().unwrap_or(1))?;
     }
-    Ok(frames.into_iter().map(|frame| one(args, frame)).collect())
+    Ok(frames)
 }
 
 /// A frame that is not there is no reason to render those before it.
@@ -91,12 +46,15 @@ fn refuse_missing(args: &RenderArgs, last: u32) -> Result<(), Failure> {
     }
 }
 
-fn one(args: &RenderArgs, frame: u32) -> RenderArgs {
+/// The call that renders one frame.
+fn one(args: &RenderArgs, frame: Option<u32>) -> RenderArgs {
     let mut args = args.clone();
-    args.frames = None;
-    args.reading.frame = Some(frame);
-    for path in args.output.iter_mut().chain(&mut args.stats).chain(&mut args.depfile) {
-        *path = named(path, frame);
+    args.several.frames = None;
+    args.reading.frame = frame;
+    if let Some(frame) = frame {
+        for path in args.output.iter_mut().chain(&mut args.stats).chain(&mut args.depfile) {
+            *path = named(path, frame);
+        }
     }
     args
 }
@@ -137,15 +95,15 @@ fn hint(path: &Path) -> String {
 
 /// Renders every frame, whatever becomes of the others, and tells in the end which failed.
 pub fn each(
-    calls: &[RenderArgs],
+    args: &RenderArgs,
+    frames: &[Option<u32>],
     terminal: &Terminal,
     mut render: impl FnMut(&RenderArgs, Place) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let of = calls.len();
+    let of = frames.len();
     let mut failed: Vec<(u32, u8)> = Vec::new();
-    for (index, call) in calls.iter().enumerate() {
-        let frame = call.reading.frame;
-        let outcome = render(call, Place { frame, index, of });
+    for (index, &frame) in frames.iter().enumerate() {
+        let outcome = render(&one(args, frame), Place { frame, index, of });
         let Err(failure) = outcome else { continue };
         if of == 1 || failure.code == STOPPED {
             return Err(failure);
@@ -180,19 +138,6 @@ pub struct Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn frames_are_read_as_render_farms_write_them() {
-        let frames = |text: &str| text.parse::<Frames>().map(|Frames(frames)| frames).ok();
-        assert_eq!(frames("7"), Some(vec![7]));
-        assert_eq!(frames("0-0"), None);
-        assert_eq!(frames("1-5"), Some(vec![1, 2, 3, 4, 5]));
-        assert_eq!(frames("1-6:2"), Some(vec![1, 3, 5]));
-        assert_eq!(frames("1-3,5, 7-20:6,2"), Some(vec![1, 2, 3, 5, 7, 13, 19]));
-        for wrong in ["", "a", "3-1", "1-", "1-4:0", "-3", "1,,2", "1-4000000000", "1.5"] {
-            assert_eq!(frames(wrong), None, "{wrong}");
-        }
-    }
 
     #[test]
     fn numbers_take_their_places_in_names() {

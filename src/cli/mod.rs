@@ -12,6 +12,7 @@ mod diff_args;
 mod diff_text;
 mod exit;
 mod finished;
+mod frame_args;
 mod frames;
 mod machine;
 mod measure;
@@ -25,6 +26,7 @@ mod summary;
 mod target;
 mod viewer;
 mod watch;
+mod watch_args;
 
 use args::{Args, Command};
 use clap::{CommandFactory, FromArgMatches};

@@ -25,8 +25,8 @@ use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     set_threads(args.work.threads)?;
-    let outcome = frames::split(args)
-        .and_then(|calls| frames::each(&calls, terminal, |call, place| frame(call, place, terminal)));
+    let outcome = frames::asked(args)
+        .and_then(|asked| frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal)));
     if let (Err(failure), ProgressChoice::Openjd) = (&outcome, args.progress) {
         report::print(&machine::openjd_fail(&failure.message))?;
     }
@@ -48,7 +48,7 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
         .telling_plan(!args.quiet)
         .of_frame(place)
         .shown_by(viewer.transpose()?);
-    if place.frame.is_some() && !args.again && finished(args, &targets, &loaded, &plan) {
+    if place.frame.is_some() && !args.several.again && finished(args, &targets, &loaded, &plan) {
         if !args.quiet {
             terminal.say(&already(args));
         }

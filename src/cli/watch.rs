@@ -4,18 +4,18 @@
 //! Files are asked for their times and lengths a few times a second, which works on every file system
 //! and for files that editors replace.
 
-use super::args::WatchArgs;
 use super::blocks::{self, Linear};
 use super::check::{load, set_threads};
-use super::exit::Failure;
+use super::exit::{Failure, USAGE};
 use super::render::until;
 use super::report::{self, Terminal};
 use super::target::png_settings;
 use super::viewer::Viewer;
+use super::watch_args::WatchArgs;
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 use terrarium::description::{Kind, Loaded};
@@ -34,6 +34,9 @@ const DRAW: Duration = Duration::from_millis(250);
 
 /// Watches until it is ended from outside, or until `--renders` renders were finished.
 pub fn run(args: &WatchArgs, terminal: &Terminal) -> Result<(), Failure> {
+    if args.scene == Path::new("-") {
+        return Err(Failure::new(USAGE, "a scene from standard input does not change: give a file"));
+    }
     set_threads(args.work.threads)?;
     let viewer =
         args.display_server.as_deref().map(|address| Viewer::new(address, &args.scene)).transpose()?;
@@ -139,7 +142,7 @@ impl Snapshot {
     }
 }
 
-fn state(file: &std::path::Path) -> Option<(SystemTime, u64)> {
+fn state(file: &Path) -> Option<(SystemTime, u64)> {
     let about = std::fs::metadata(file).ok()?;
     Some((about.modified().ok()?, about.len()))
 }
