@@ -47,7 +47,7 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
 }
 
 /// So many frames of an animation with different keys are looked at.
-const MOST_KEYS: usize = 256;
+const MOST_KEYS: usize = 64;
 
 /// All that is said about a scene, the exit code, and the frames at which its animation has keys.
 fn judge(scene: &Path, reading: &Reading) -> Result<(Vec<Diagnostic>, u8, Vec<u32>), Failure> {

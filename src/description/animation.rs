@@ -117,6 +117,8 @@ fn default_deg() -> f64 {
 
 impl Animation {
     pub const MOST_FRAMES: u32 = 1_000_000;
+    /// So many values may have keys.
+    pub const MOST_TRACKS: usize = 10_000;
 
     /// The frames at which a track has a key, in order, each once, and the first: what lies between two of
     /// them is between their values.

@@ -157,3 +157,28 @@ fn every_mistake_has_its_place() {
         assert!(found[0].starts_with("<input>:1:"), "no place: {found:?}");
     }
 }
+
+#[test]
+fn many_values_with_keys_are_read_in_time_and_too_many_are_refused() {
+    let tracks = |count: usize| {
+        let objects: Vec<String> =
+            (0..count).map(|_| "(shape: sphere(), material: \"m\")".to_owned()).collect();
+        let keys: Vec<String> = (0..count)
+            .map(|i| {
+                format!("\"objects.{i}.shape.radius\": linear([(frame: 1, value: 1), (frame: 9, value: 2)])")
+            })
+            .collect();
+        let text = format!(
+            "({CAMERA}, animation: (frames: 9, keys: {{ {} }}), materials: {{ \"m\": () }}, objects: [{}])",
+            keys.join(", "),
+            objects.join(", ")
+        );
+        load_frame(&text, 5, &[])
+    };
+    let began = std::time::Instant::now();
+    let loaded = tracks(5_000).expect("valid");
+    assert!(matches!(loaded.scene.objects[4_999].shape, Shape::Sphere { radius: 1.5, .. }));
+    assert!(began.elapsed().as_secs() < 20, "{:?}", began.elapsed());
+    let refused = tracks(10_001).expect_err("too many");
+    assert!(refused.len() == 1 && refused[0].contains("more than 10000 values"), "{refused:?}");
+}

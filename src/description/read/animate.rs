@@ -3,7 +3,7 @@
 
 use super::{Reading, set};
 use crate::description::animation::{Animation, KeyValue, Orbit};
-use crate::description::diagnostic::{Kind, Severity};
+use crate::description::diagnostic::{Kind, Report, Severity};
 use crate::description::tree::{Index, Node, Path, Span, Value};
 use crate::description::{Camera, Vector};
 use glam::DVec3;
@@ -17,12 +17,13 @@ pub(super) fn apply(reading: &mut Reading, root: &mut Node, animation: &Animatio
     }
     let mut mistakes = settings(animation, frame);
     let mut edits = Vec::new();
-    for (path, track) in animation.keys.iter() {
+    let index = Index::new(root);
+    for (path, track) in animation.keys.iter().take(Animation::MOST_TRACKS) {
         let list = place.key("keys").key(path).key(track.kind());
         match track.odd_frames().map_or_else(|| track.at(frame), Err) {
             Ok(value) => {
                 let before = list.index(track.before(frame)).key("value");
-                edits.push((path, node(&value, span(root, &before))));
+                edits.push((path, node(&value, index.find(&before).node.span)));
             }
             Err(odd) => mistakes.push((list.index(odd.key), odd.message.to_owned())),
         }
@@ -34,7 +35,7 @@ pub(super) fn apply(reading: &mut Reading, root: &mut Node, animation: &Animatio
             mistakes.push((place.key("keys").key(path), message));
         }
     }
-    for (place, message) in mistakes {
+    for (place, message) in mistakes.into_iter().take(Report::MOST) {
         let at = span(root, &place);
         let mut diagnostic = reading.sources.diagnostic(Severity::Error, Kind::Invalid, at, message);
         diagnostic.path = Some(place.to_string());
@@ -79,6 +80,10 @@ fn settings(animation: &Animation, frame: u32) -> Vec<(Path, String)> {
     }
     if animation.fps <= 0.0 {
         mistakes.push((place.key("fps"), format!("{} is not above 0", animation.fps)));
+    }
+    if animation.keys.len() > Animation::MOST_TRACKS {
+        let message = format!("more than {} values with keys are not read", Animation::MOST_TRACKS);
+        mistakes.push((place.key("keys"), message));
     }
     if let Some(orbit) = &animation.orbit
         && DVec3::from(orbit.axis).try_normalize().is_none()
