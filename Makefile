@@ -13,7 +13,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names gallery test hard lint bench yardstick honesty study assets schema install clean help FORCE
+.PHONY: all build renders images names gallery turntable test hard lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -107,6 +107,25 @@ gallery: build
 	@TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 benches/gallery.py \
 	    $(if $(DRAFT),--draft) $(if $(AGAIN),--again)
 
+# The frames of the turntable, how they are rendered, and the kind of the film.
+FRAMES ?= 1-48
+TURN   ?= --set image.width=320 --set image.height=180 --passes 8
+FORMAT ?= gif
+TURNS  := $(OUT)/turntable
+
+## turntable: the frames of the terrarium as it turns, small, and a film of them where ffmpeg or Python's PIL is; FORMAT=webp or mp4, TURN='--passes 64' for how they are rendered
+turntable: build
+	@mkdir -p '$(TURNS)'
+	'$(TERRARIUM)' render scenes/terrarium.ron --frames '$(FRAMES)' -o '$(TURNS)/####.png' $(TURN) $(FLAGS)
+	@if command -v ffmpeg >/dev/null; then \
+	    ffmpeg -nostdin -loglevel error -y -framerate 12 -pattern_type glob -i '$(TURNS)/*.png' \
+	        $(if $(filter mp4,$(FORMAT)),-pix_fmt yuv420p,-loop 0) '$(TURNS).$(FORMAT)' && echo 'wrote $(TURNS).$(FORMAT)'; \
+	elif [ '$(FORMAT)' != mp4 ] && python3 -c 'import PIL' 2>/dev/null; then \
+	    python3 '$(dir $(SELF))benches/film.py' '$(TURNS)' '$(TURNS).$(FORMAT)' 12; \
+	else \
+	    echo "the frames are in $(TURNS); a film of them needs ffmpeg$(if $(filter mp4,$(FORMAT)),, or Python's PIL)"; \
+	fi
+
 ## test: build and run every test
 test:
 	$(CARGO) test --release --locked
@@ -172,7 +191,7 @@ install:
 
 ## clean: remove what was rendered and built
 clean:
-	@rm -rf '$(OUT)'/*.exr '$(OUT)'/*.png '$(OUT)'/.*.tmp-* '$(OUT)/.deps' '$(OUT)/.failed' '$(OUT)/draft'
+	@rm -rf '$(OUT)'/*.exr '$(OUT)'/*.png '$(OUT)'/.*.tmp-* '$(OUT)/.deps' '$(OUT)/.failed' '$(OUT)/draft' '$(OUT)'/turntable*
 	$(CARGO) clean
 
 ## help: this list

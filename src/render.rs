@@ -109,6 +109,9 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     // Passes of a shard are no sample of all.
     let accuracy = if options.shards.is_some() { None } else { film.accuracy() };
     image::found(&mut provenance, &film, passes, &part.counts, accuracy.as_ref());
+    if halted {
+        provenance.partial = Some(serde_json::json!({ "stoppedAfterPasses": passes }));
+    }
     let taken = prices::taken(&tally, clock.of("trace"), &photons, before);
     let prices = prices::beside(&taken, &planned.prices);
     let stats = Stats::new(

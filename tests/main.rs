@@ -10,6 +10,7 @@ mod command_line;
 #[path = "diff/main.rs"]
 mod diff;
 mod forecast;
+mod frames;
 mod gallery;
 mod guide;
 #[path = "hard_cases/mod.rs"]
@@ -21,6 +22,7 @@ mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+mod paths;
 #[path = "photons/main.rs"]
 mod photons;
 #[path = "plan/main.rs"]
@@ -33,3 +35,4 @@ mod shapes;
 #[path = "study/main.rs"]
 mod study;
 mod textures;
+mod watching;

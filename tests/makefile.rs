@@ -143,3 +143,25 @@ fn help_lists_every_target() {
         assert!(text(&run).lines().any(|line| line.starts_with(&format!("{target}: "))), "{target}");
     }
 }
+
+#[test]
+fn a_turntable_renders_its_frames_once() {
+    let folder = folder();
+    let moving = SCENE.replace(
+        "render:",
+        "animation: (frames: 3, keys: { \"objects.0.shape.radius\": linear([(frame: 1, value: 1), (frame: 3, value: 2)]) }), render:",
+    );
+    fs::write(folder.path().join("scenes/terrarium.ron"), moving).expect("written");
+    let call = ["turntable", "FRAMES=1-3:2", "TURN=--passes 1"];
+    let Some(first) = make(folder.path(), &call) else { return };
+    assert!(first.status.success(), "{}", text(&first));
+    let times =
+        || ["0001", "0003"].map(|frame| written(folder.path(), &format!("renders/turntable/{frame}.png")));
+    let before = times();
+    // where there is a program that makes films there is one
+    let film = folder.path().join("renders/turntable.gif").exists();
+    assert!(film || text(&first).contains("needs ffmpeg"), "{}", text(&first));
+    let second = make(folder.path(), &call).expect("make");
+    assert!(second.status.success() && times() == before, "{}", text(&second));
+    assert_eq!(text(&second).matches("there already").count(), 2);
+}

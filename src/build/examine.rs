@@ -105,8 +105,8 @@ impl<'a> Meshes<'a> {
     fn mesh(&mut self, path: &str, named: &NameMap<String>, place: &Place, needs: Needs) {
         let file = Path::new(path);
         let key = file.canonicalize().unwrap_or_else(|_| file.to_owned());
-        let findings = &mut self.findings;
-        let parts = self.files.entry(key).or_insert_with(|| match obj::load(file) {
+        let (scene, findings) = (self.scene, &mut self.findings);
+        let parts = self.files.entry(key).or_insert_with(|| match obj::load_within(&scene.reach, file) {
             Ok(mesh) => {
                 for warning in mesh.warnings {
                     findings.add(Severity::Warning, Kind::Invalid, &place.mesh(), warning);

@@ -29,7 +29,7 @@ pub(super) fn rgb(c: &description::Rgb) -> Vec3 {
 impl Surfaces {
     pub fn load(scene: &Scene, plan: &Plan) -> Result<Surfaces, BuildError> {
         let used = used_materials(scene);
-        let images = Images::new(Path::new(""), Limits::default());
+        let images = Images::new(Path::new(""), Limits::default()).within(&scene.reach);
         let flat = plan.leaves_out(Effect::Textures);
         let mut textures = Textures { scene, flat, list: Vec::new(), ids: HashMap::new(), images };
         let (mut materials, mut ids) = (Vec::new(), HashMap::new());
@@ -47,7 +47,7 @@ impl Surfaces {
     /// back the images.
     pub fn examine(scene: &Scene, findings: &mut Findings) -> Images {
         let used = used_materials(scene);
-        let images = Images::new(Path::new(""), Limits::default());
+        let images = Images::new(Path::new(""), Limits::default()).within(&scene.reach);
         let mut textures = Textures { scene, flat: false, list: Vec::new(), ids: HashMap::new(), images };
         let mut broken = HashSet::new();
         for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {

@@ -3,7 +3,7 @@
 use super::world::Mesh;
 use super::{BuildError, obj};
 use crate::build::bvh::TriangleBvh;
-use crate::description::Smooth;
+use crate::description::{Reach, Smooth};
 use crate::math::{DVec3, Vec3};
 use crate::optics::TriangleMesh;
 use std::collections::HashMap;
@@ -19,12 +19,18 @@ pub(super) struct LoadedMesh {
 
 #[derive(Default)]
 pub(super) struct Meshes {
+    reach: Reach,
     loaded: HashMap<(PathBuf, Smooth), LoadedMesh>,
     pub files: Vec<PathBuf>,
     pub warnings: Vec<String>,
 }
 
 impl Meshes {
+    /// Of files within reach.
+    pub fn within(reach: &Reach) -> Meshes {
+        Meshes { reach: reach.clone(), ..Meshes::default() }
+    }
+
     /// The mesh of a file; `add` stores a new one and returns its index.
     pub fn get(
         &mut self,
@@ -37,7 +43,7 @@ impl Meshes {
         if let Some(mesh) = self.loaded.get(&key) {
             return Ok(mesh.clone());
         }
-        let mut read = obj::load(&file)?;
+        let mut read = obj::load_within(&self.reach, &file)?;
         self.warnings.append(&mut read.warnings);
         let normals = match smooth {
             Smooth::Flat => Vec::new(),

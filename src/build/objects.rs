@@ -57,7 +57,7 @@ pub(super) fn place(scene: &Scene, origin: DVec3, surfaces: &Surfaces) -> Result
         instances: Vec::new(),
         bindings: Vec::new(),
         object_names: Vec::new(),
-        meshes: Meshes::default(),
+        meshes: Meshes::within(&scene.reach),
     };
     let mut placer = Placer {
         scene,

@@ -2,7 +2,9 @@
 
 use super::batch_args::BatchArgs;
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
+use super::frame_args::FrameArgs;
 use super::study_args::{STUDY_EXAMPLES, StudyArgs};
+use super::watch_args::{WATCH_EXAMPLES, WatchArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use terrarium::plan::{Effect, Overrides, Until};
@@ -27,6 +29,7 @@ Examples:
   terrarium render scene.ron -o image.exr
   terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
+  terrarium render scene.ron -o frames/####.png --frames 1-48
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
 
 const FARM_EXAMPLES: &str = "\
@@ -78,6 +81,9 @@ pub enum Command {
     /// Render a scene to one or several images
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Render a scene pass by pass, and anew whenever it or a file that it uses changes
+    #[command(after_help = WATCH_EXAMPLES)]
+    Watch(Box<WatchArgs>),
     /// Tell what a render would do, why, and what time and memory it would take
     #[command(after_help = PLAN_EXAMPLES)]
     Plan(Box<PlanArgs>),
@@ -107,7 +113,7 @@ pub enum Command {
     Completions { shell: clap_complete::Shell },
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct RenderArgs {
     /// The scene, .ron or .toml; `-` reads it from standard input
     pub scene: PathBuf,
@@ -123,6 +129,8 @@ pub struct RenderArgs {
     pub work: Work,
     #[command(flatten)]
     pub batch: BatchArgs,
+    #[command(flatten)]
+    pub several: FrameArgs,
     /// Edge of a tile in pixels. The image does not depend on it
     #[arg(long, value_name = "PIXELS", default_value_t = 32,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -137,6 +145,9 @@ pub struct RenderArgs {
     /// Write statistics as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
+    /// Show the picture while it is rendered, in a viewer that speaks tev's protocol
+    #[arg(long, value_name = "HOST:PORT")]
+    pub display_server: Option<String>,
     /// Write a rule for make: which files the images depend on
     #[arg(long, value_name = "FILE")]
     pub depfile: Option<PathBuf>,
@@ -152,7 +163,7 @@ pub struct RenderArgs {
 }
 
 /// What is rendered of a scene: the same for a plan as for the render.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Work {
     /// Independent passes whose mean is the image, or a range of them such as `8..16` (8 to 15), to be
     /// averaged with the others later; the scene's if not given
@@ -341,7 +352,7 @@ fn positive(value: f64) -> Result<f64, String> {
 }
 
 /// Overrides of the effects that the scene calls for.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Effects {
     /// Leave out effects: direct, shadows, soft_shadows, reflection, refraction, absorption, dispersion,
     /// highlights, textures, normal_maps, bump_maps, caustics, indirect, depth_of_field, environment,
@@ -374,11 +385,18 @@ impl Effects {
 }
 
 /// How a scene is read.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct Reading {
     /// Replace a value of the scene, such as `materials.glass.ior=1.33`; may be given several times
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// The frame of an animated scene, from 1; the first if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frame: Option<u32>,
+    /// Let the scene read the files of this folder too, beside those of its own folder or project; may be
+    /// given several times
+    #[arg(long, value_name = "FOLDER")]
+    pub allow: Vec<PathBuf>,
     /// Format of a scene that comes from standard input
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub scene_format: Option<SceneFormat>,
@@ -448,6 +466,8 @@ pub enum ProgressChoice {
     None,
     /// One JSON object a line
     Json,
+    /// On standard output, for Open Job Description
+    Openjd,
 }
 
 impl From<SceneFormat> for terrarium::description::Format {

@@ -8,7 +8,7 @@ use std::time::Duration;
 use terrarium::film::Window;
 use terrarium::render::{Checkpoint, Shards};
 
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct BatchArgs {
     /// Render one part of N, such as `2/8`, numbered from 0: a share of the passes, or of the tiles where there
     /// are fewer passes than parts. `auto` takes the number from the engine that started the program. What is
@@ -83,6 +83,10 @@ impl BatchArgs {
         }
     }
 
+    fn is_divided(&self) -> bool {
+        self.shard.is_some() || self.shards.is_some()
+    }
+
     /// The name of a partial image in --out-dir.
     pub fn name(&self, scene: &Path, shards: &Shards) -> String {
         let stem = scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
@@ -108,7 +112,8 @@ impl BatchArgs {
         };
         let mut path = image.as_os_str().to_owned();
         path.push(".checkpoint");
-        Ok(Some(Checkpoint { path: path.into(), every, resume: self.resume }))
+        let part = self.is_divided().then(|| image.to_path_buf());
+        Ok(Some(Checkpoint { path: path.into(), every, resume: self.resume, part }))
     }
 }
 

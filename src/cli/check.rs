@@ -6,7 +6,7 @@ use super::report::{self, Terminal};
 use std::io::Read;
 use std::path::Path;
 use terrarium::build;
-use terrarium::description::{self, Loaded, Report, Unread};
+use terrarium::description::{self, Diagnostic, Loaded, Reach, Report, Terms, Unread};
 
 /// A scene on standard input ends here; larger ones are mistakes.
 const LONGEST_INPUT: u64 = 256 << 20;
@@ -16,20 +16,17 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
     let mut results = Vec::new();
     let mut worst = 0;
     for scene in &args.scenes {
-        let (diagnostics, code) = match load(scene, &args.reading, Unread::default())? {
-            Ok(loaded) => {
-                let report = files(&loaded);
-                let code = if report.errors().next().is_none() { 0 } else { report.exit_code() };
-                let mut diagnostics = report.diagnostics;
-                diagnostics.extend(loaded.warnings);
-                diagnostics.sort_by_key(|diagnostic| diagnostic.severity);
-                (diagnostics, code)
+        let (mut diagnostics, mut code, keys) = judge(scene, &args.reading)?;
+        if args.reading.frame.is_none() && code == 0 {
+            // what lies between two keys is valid if they are
+            for frame in keys.into_iter().skip(1).take(MOST_KEYS) {
+                let (more, worse, _) = judge(scene, &Reading { frame: Some(frame), ..args.reading.clone() })?;
+                let new: Vec<_> = more.into_iter().filter(|found| !diagnostics.contains(found)).collect();
+                diagnostics.extend(new);
+                code = code.max(worse);
             }
-            Err(report) => {
-                let code = report.exit_code();
-                (report.diagnostics, code)
-            }
-        };
+            diagnostics.sort_by_key(|diagnostic| diagnostic.severity);
+        }
         worst = worst.max(code);
         if args.format == CheckFormat::Text {
             diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
@@ -49,6 +46,29 @@ pub fn run(args: &CheckArgs, terminal: &Terminal) -> Result<(), Failure> {
     if worst == 0 { Ok(()) } else { Err(Failure::new(worst, "")) }
 }
 
+/// So many frames of an animation with different keys are looked at.
+const MOST_KEYS: usize = 64;
+
+/// All that is said about a scene, the exit code, and the frames at which its animation has keys.
+fn judge(scene: &Path, reading: &Reading) -> Result<(Vec<Diagnostic>, u8, Vec<u32>), Failure> {
+    Ok(match load(scene, reading, Unread::default())? {
+        Ok(loaded) => {
+            let report = files(&loaded);
+            let code = if report.errors().next().is_none() { 0 } else { report.exit_code() };
+            let mut diagnostics = report.diagnostics;
+            diagnostics.extend(loaded.warnings);
+            diagnostics.sort_by_key(|diagnostic| diagnostic.severity);
+            let several = scene != Path::new("-");
+            let keys = loaded.animation.filter(|_| several).map(|animation| animation.key_frames());
+            (diagnostics, code, keys.unwrap_or_default())
+        }
+        Err(report) => {
+            let code = report.exit_code();
+            (report.diagnostics, code, Vec::new())
+        }
+    })
+}
+
 /// What is wrong with the files that a sound scene names.
 pub fn files(loaded: &Loaded) -> Report {
     loaded.report(build::examine(&loaded.scene))
@@ -57,11 +77,16 @@ pub fn files(loaded: &Loaded) -> Report {
 /// Reads and checks a scene; `-` is standard input. Missing files of what is left `unread` are
 /// warnings. The outer error is a wrong call.
 pub fn load(scene: &Path, reading: &Reading, unread: Unread) -> Result<Result<Loaded, Report>, Failure> {
-    if scene != Path::new("-") {
-        return Ok(description::load_but(scene, &reading.set, unread));
+    let (set, from_input) = (&reading.set, scene == Path::new("-"));
+    let folder = if from_input { Path::new(".") } else { scene.parent().unwrap_or(Path::new("")) };
+    let reach = Reach::within(folder, &reading.allow)
+        .map_err(|(folder, error)| Failure::new(USAGE, format!("--allow {}: {error}", folder.display())))?;
+    let terms = Terms { unread, reach, frame: reading.frame };
+    if !from_input {
+        return Ok(description::load_on(&terms, scene, set));
     }
     let (text, format) = standard_input(reading)?;
-    Ok(description::load_str_but(&text, format, Path::new("."), &reading.set, unread))
+    Ok(description::load_str_on(&terms, &text, format, folder, set))
 }
 
 /// The scene on standard input, and its language.

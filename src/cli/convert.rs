@@ -23,6 +23,9 @@ pub fn run(args: &ConvertArgs, terminal: &Terminal) -> Result<(), Failure> {
             };
             Failure::new(USAGE, reason)
         })?;
+    if args.reading.frame.is_some() {
+        return Err(Failure::new(USAGE, "a scene is converted with all of its frames: leave out --frame"));
+    }
     let set = &args.reading.set;
     let scene = if args.input == Path::new("-") {
         let (text, from) = standard_input(&args.reading)?;

@@ -50,7 +50,7 @@ impl From<RenderError> for Failure {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => USAGE,
             RenderError::Io(_) => UNREADABLE,
             RenderError::TooLarge(_) => REFUSED,
-            RenderError::Failed(_) => FAILED,
+            RenderError::Failed(_) | RenderError::Already => FAILED,
         };
         Failure::new(code, error.to_string())
     }

@@ -128,6 +128,9 @@ fn again(args: &FarmArgs) -> Vec<String> {
     let mut list = Vec::new();
     let mut add = |name: &str, value: String| list.extend([name.to_owned(), value]);
     args.reading.set.iter().for_each(|set| add("--set", set.clone()));
+    let place = |path: &PathBuf| text(&std::path::absolute(path).unwrap_or_else(|_| path.clone()));
+    args.reading.allow.iter().for_each(|folder| add("--allow", place(folder)));
+    args.reading.frame.iter().for_each(|frame| add("--frame", frame.to_string()));
     let work = &args.work;
     if let Some(passes) = &work.passes {
         add("--passes", format!("{}..{}", passes.start, passes.end));

@@ -5,6 +5,7 @@
 
 mod args;
 mod batch_args;
+mod blocks;
 mod check;
 mod convert;
 mod diff;
@@ -13,6 +14,10 @@ mod diff_text;
 mod engine;
 mod exit;
 mod farm;
+mod finished;
+mod frame_args;
+mod frames;
+mod machine;
 mod measure;
 mod merge;
 mod plan;
@@ -24,6 +29,9 @@ mod study;
 mod study_args;
 mod summary;
 mod target;
+mod viewer;
+mod watch;
+mod watch_args;
 
 use args::{Args, Command};
 use clap::{CommandFactory, FromArgMatches};
@@ -62,6 +70,7 @@ pub fn run() -> ExitCode {
 fn dispatch(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     match &args.command {
         Command::Render(args) => render::run(args, terminal),
+        Command::Watch(args) => watch::run(args, terminal),
         Command::Plan(args) => plan::run(args, terminal),
         Command::Study(args) => study::run(args, terminal),
         Command::Check(args) => check::run(args, terminal),

@@ -1,14 +1,20 @@
-//! Progress: a bar on a terminal, plain lines elsewhere, or JSON.
+//! Progress: a bar on a terminal, plain lines elsewhere, or lines for programs.
 //!
 //! A stage never shows more than 99 %; the whole is done, and says so, when the images have their
 //! names. Off a terminal nothing is drawn over.
 
 use super::args::ProgressChoice;
+use super::frames::Place;
+use super::machine::{self, DONE, State};
 use super::plan;
-use super::report::Terminal;
+use super::report::{self, Terminal};
+use super::viewer::Viewer;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use terrarium::film::Film;
+use terrarium::output::Image;
 use terrarium::render::{Planned, Progress};
 
 /// Plain lines come after this time at the latest.
@@ -22,7 +28,11 @@ pub struct Reporter {
     terminal: Terminal,
     /// Whether the plan is told once it is known.
     tells_plan: bool,
+    place: Place,
     stage: Mutex<Option<Stage>>,
+    /// The picture's error, as it was told last.
+    err: Mutex<Option<f64>>,
+    viewer: Option<Viewer>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +40,7 @@ enum Form {
     Bar,
     Plain,
     Json,
+    OpenJd,
     None,
 }
 
@@ -49,12 +60,26 @@ impl Reporter {
         let form = match choice {
             ProgressChoice::None => Form::None,
             ProgressChoice::Json => Form::Json,
+            ProgressChoice::Openjd => Form::OpenJd,
             _ if quiet => Form::None,
             ProgressChoice::Bar => Form::Bar,
             ProgressChoice::Auto if terminal.redraws => Form::Bar,
             ProgressChoice::Auto | ProgressChoice::Plain => Form::Plain,
         };
-        Reporter { form, terminal: terminal.clone(), tells_plan: false, stage: Mutex::new(None) }
+        Reporter {
+            form,
+            terminal: terminal.clone(),
+            tells_plan: false,
+            place: Place { of: 1, ..Place::default() },
+            stage: Mutex::new(None),
+            err: Mutex::new(None),
+            viewer: None,
+        }
+    }
+
+    /// The same, of one frame among others.
+    pub fn of_frame(self, place: Place) -> Self {
+        Reporter { place, ..self }
     }
 
     /// The same, telling the plan once it is known unless that is not wanted.
@@ -62,11 +87,35 @@ impl Reporter {
         Reporter { tells_plan: wanted, ..self }
     }
 
+    /// The same, with the picture in a viewer.
+    pub fn shown_by(self, viewer: Option<Viewer>) -> Self {
+        Reporter { viewer, ..self }
+    }
+
+    /// Shows the finished picture, where it is shown.
+    pub fn show(&self, image: &Image) {
+        if let Some(viewer) = &self.viewer {
+            viewer.finish(image, &self.terminal);
+        }
+    }
+
     /// The images have their names: the whole is done.
     pub fn complete(&self) {
         self.finish();
-        if self.form == Form::Json {
-            self.terminal.say(&serde_json::json!({ "v": 1, "stage": "done", "done": 1.0 }).to_string());
+        let state = State { place: self.place, stage: DONE, done: 1.0, eta_s: Some(0.0), err: self.err() };
+        self.tell_machine(&state);
+    }
+
+    fn err(&self) -> Option<f64> {
+        *self.err.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tell_machine(&self, state: &State) {
+        match self.form {
+            Form::Json => self.terminal.say(&state.json()),
+            // who reads progress may have gone: no reason to stop
+            Form::OpenJd => drop(report::print(&state.openjd_progress())),
+            _ => {}
         }
     }
 
@@ -83,15 +132,13 @@ impl Reporter {
                 let rate = stage.rate();
                 self.terminal.say(&format!("{}: {percent} %, {rate}{left}", stage.name));
             }
-            Form::Json => {
-                let line = serde_json::json!({
-                    "v": 1,
-                    "stage": stage.name,
-                    "done": stage.share(),
-                    "eta_s": stage.seconds_left(),
-                });
-                self.terminal.say(&line.to_string());
-            }
+            Form::Json | Form::OpenJd => self.tell_machine(&State {
+                place: self.place,
+                stage: &stage.name,
+                done: stage.share(),
+                eta_s: stage.seconds_left(),
+                err: self.err(),
+            }),
             Form::Bar | Form::None => {}
         }
     }
@@ -119,8 +166,13 @@ impl Progress for Reporter {
             told: (now, 0.0),
             bar,
         };
-        if self.form == Form::Json {
+        if matches!(self.form, Form::Json | Form::OpenJd) {
             self.tell(&stage);
+        }
+        if self.form == Form::OpenJd {
+            let state =
+                State { place: self.place, stage: &stage.name, done: 0.0, eta_s: None, err: self.err() };
+            drop(report::print(&state.openjd_status()));
         }
         *self.stage() = Some(stage);
     }
@@ -143,6 +195,7 @@ impl Progress for Reporter {
         // short stages pass without a line
         let due = match self.form {
             Form::Json => silence >= SHORTEST_SILENCE,
+            Form::OpenJd => silence >= Duration::from_secs(1),
             _ => silence >= LONGEST_SILENCE || (news >= 0.1 && stage.began.elapsed().as_secs() >= 1),
         };
         if due {
@@ -156,7 +209,7 @@ impl Progress for Reporter {
             if let Some(bar) = &stage.bar {
                 bar.finish_and_clear();
             }
-            if self.form == Form::Json {
+            if matches!(self.form, Form::Json | Form::OpenJd) {
                 self.tell(&stage);
             }
         }
@@ -165,8 +218,9 @@ impl Progress for Reporter {
     fn planned(&self, planned: &Planned) {
         if self.form == Form::Json {
             let (seconds, bytes) = (planned.seconds, planned.peak_bytes);
-            let line = serde_json::json!({ "v": 1, "note": "planned", "predicted_s": seconds, "predicted_bytes": bytes });
-            self.terminal.say(&line.to_string());
+            let fields =
+                serde_json::json!({ "note": "planned", "predicted_s": seconds, "predicted_bytes": bytes });
+            self.terminal.say(&machine::note(self.place, fields));
             planned.survey.notes.iter().for_each(|note| self.note(note));
         } else if self.tells_plan {
             self.terminal.say(&plan::summary(planned));
@@ -176,19 +230,33 @@ impl Progress for Reporter {
 
     fn error(&self, error: f64, target: f64) {
         let percent = |share: f64| (1e4 * share).round() / 100.0;
+        *self.err.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
         if self.form == Form::Json {
-            let line = serde_json::json!({ "v": 1, "note": "error", "error": error, "target": target });
-            self.terminal.say(&line.to_string());
+            let fields = serde_json::json!({ "note": "error", "error": error, "target": target });
+            self.terminal.say(&machine::note(self.place, fields));
         } else {
             self.note(&format!("error: {} %, to be {} %", percent(error), percent(target)));
         }
     }
 
+    fn picture(&self, film: &Film, passes: u32) -> ControlFlow<()> {
+        if let Some(viewer) = &self.viewer {
+            viewer.show(film, &self.terminal);
+        }
+        // what it takes to know is little beside as many passes again
+        let told = matches!(self.form, Form::Json | Form::OpenJd);
+        if told && passes >= 4 && passes.is_power_of_two() {
+            let error = film.accuracy().map(|accuracy| accuracy.error);
+            *self.err.lock().unwrap_or_else(PoisonError::into_inner) = error;
+        }
+        ControlFlow::Continue(())
+    }
+
     fn note(&self, message: &str) {
         match (self.form, self.stage().as_ref().and_then(|stage| stage.bar.clone())) {
-            (Form::None, _) => {}
+            (Form::None | Form::OpenJd, _) => {}
             (Form::Json, _) => {
-                self.terminal.say(&serde_json::json!({ "v": 1, "note": message }).to_string());
+                self.terminal.say(&machine::note(self.place, serde_json::json!({ "note": message })));
             }
             (_, Some(bar)) => bar.suspend(|| self.terminal.say(message)),
             (_, None) => self.terminal.say(message),

@@ -4,14 +4,18 @@
 //! under temporary names, the dependency file, then the images' names. Whatever fails, a file that
 //! was there before stays as it was.
 
-use super::args::RenderArgs;
+use super::args::{ProgressChoice, RenderArgs};
 use super::check::{files, load_and_report, refused, set_threads};
 use super::exit::{Failure, STOPPED, USAGE};
+use super::finished::finished;
+use super::frames::{self, Place};
+use super::machine;
 use super::progress::{Reporter, duration, short};
 use super::report::{self, Terminal};
 use super::signals::stop_on_signals;
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
+use super::viewer::Viewer;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::description::{Loaded, Scene};
@@ -22,6 +26,18 @@ use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Checkpoint, Options, Part, Progress, RenderError, Rendered, Shards};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
+    set_threads(args.work.threads)?;
+    let outcome = frames::asked(args)
+        .and_then(|asked| frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal)));
+    if let (Err(failure), ProgressChoice::Openjd) = (&outcome, args.progress) {
+        // who reads them may have gone; the exit code stays
+        drop(report::print(&machine::openjd_fail(&failure.message)));
+    }
+    outcome
+}
+
+/// Renders the scene, or one frame of it.
+fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
     let shards = args.batch.divided()?;
     let targets = match &shards {
@@ -30,24 +46,37 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     };
     refuse_mixed_up_files(args, &targets)?;
     let stamp = args.stamp.then(stamp).transpose()?;
-    set_threads(args.work.threads)?;
     let loaded =
         load_and_report(&args.scene, &args.reading, args.work.options().overrides.unread(), terminal)?;
     refuse_overwriting(&targets, &loaded.files)?;
+    let plan = Plan::new(&loaded.scene, &options(args, began).request()).map_err(RenderError::from)?;
+    let viewer = args.display_server.as_deref().map(|address| Viewer::new(address, &args.scene));
+    let reporter = Reporter::new(args.progress, args.quiet, terminal)
+        .telling_plan(!args.quiet)
+        .of_frame(place)
+        .shown_by(viewer.transpose()?);
+    let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path))?;
+    let begun = checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.path.exists());
+    let goes_on = place.frame.is_some() || (args.batch.resume && !begun);
+    if goes_on && !args.several.again && shards.is_none() && finished(args, &targets, &loaded, &plan) {
+        return Ok(already(args, terminal, &reporter));
+    }
     probe(args, &targets)?;
-    let reporter = Reporter::new(args.progress, args.quiet, terminal).telling_plan(!args.quiet);
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene, began)?);
+        terminal.say(&announcement(args, &loaded.scene, &plan));
     }
 
-    let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path))?;
     tell_of_checkpoint(checkpoint.as_ref(), terminal);
     let written_down = checkpoint.as_ref().map(|checkpoint| checkpoint.path.clone());
     let options = Options { shards, checkpoint, halt: Some(stop_on_signals()), ..options(args, began) };
-    let mut rendered = render::render(&loaded, &options, &reporter).map_err(|error| {
-        reporter.finish();
-        unbuildable(error, &loaded, terminal)
-    })?;
+    let mut rendered = match render::render(&loaded, &options, &reporter) {
+        Ok(rendered) => rendered,
+        Err(RenderError::Already) => return Ok(already(args, terminal, &reporter)),
+        Err(error) => {
+            reporter.finish();
+            return Err(unbuildable(error, &loaded, terminal));
+        }
+    };
     refuse_overwriting(&targets, &rendered.files)?;
     rendered.provenance.stamp = stamp;
 
@@ -81,12 +110,15 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
         // There may be none.
         let _ = std::fs::remove_file(file);
     }
+    reporter.show(&rendered.image);
     reporter.complete();
 
     rendered.warnings.iter().for_each(|warning| terminal.warning(warning));
     let written = worst(&written);
     let summary = Summary {
+        v: machine::VERSION,
         version: env!("CARGO_PKG_VERSION"),
+        frame: place.frame,
         scene: args.scene.display().to_string(),
         scene_hash: &rendered.provenance.scene_hash,
         seed: rendered.provenance.seed,
@@ -182,13 +214,29 @@ fn options(args: &RenderArgs, began: Instant) -> Options {
     }
 }
 
+/// Nothing is left to do.
+fn already(args: &RenderArgs, terminal: &Terminal, reporter: &Reporter) {
+    if !args.quiet {
+        let names: Vec<String> = args.output.iter().map(|path| path.display().to_string()).collect();
+        let what = match args.reading.frame {
+            Some(frame) => format!("frame {frame}"),
+            None => args.scene.display().to_string(),
+        };
+        let names = if names.is_empty() { String::new() } else { format!(" {}:", names.join(", ")) };
+        terminal.say(&format!(
+            "{what}:{names} there already, of the same scene and settings (--again renders it)"
+        ));
+    }
+    reporter.complete();
+}
+
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<String, Failure> {
-    let plan = Plan::new(scene, &options(args, began).request()).map_err(RenderError::from)?;
+fn announcement(args: &RenderArgs, scene: &Scene, plan: &Plan) -> String {
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
-    let until = until(&plan);
+    let until = until(plan);
+    let frame = args.reading.frame.map_or(String::new(), |frame| format!(", frame {frame}"));
     let mut line = format!(
-        "{}: {} × {} pixels, {until}, {}",
+        "{}{frame}: {} × {} pixels, {until}, {}",
         args.scene.display(),
         scene.image.width,
         scene.image.height,
@@ -197,7 +245,7 @@ fn announcement(args: &RenderArgs, scene: &Scene, began: Instant) -> Result<Stri
     if !plan.overrides.is_empty() {
         line += &format!(", {}", plan.overrides);
     }
-    Ok(line)
+    line
 }
 
 /// When the render will end.

@@ -11,8 +11,12 @@ use terrarium::trace::Rays;
 /// Everything that `--stats` writes.
 #[derive(Debug, Serialize)]
 pub struct Summary<'a> {
+    /// Of this format.
+    pub v: u32,
     pub version: &'static str,
     pub scene: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<u32>,
     pub scene_hash: &'a str,
     pub seed: u64,
     pub width: usize,

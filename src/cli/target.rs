@@ -1,6 +1,6 @@
 //! Where the images go: named files, each once, and standard output.
 
-use super::args::{ImageFormat, RenderArgs};
+use super::args::{ImageFormat, ProgressChoice, RenderArgs};
 use super::exit::{Failure, USAGE};
 use std::io::{self, Cursor, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -23,8 +23,12 @@ pub enum Staged {
 pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
     let targets = targets_of(&args.output, args.format)?;
     let shown = targets.iter().any(|target| matches!(target, Target::Stdout(_)));
-    if shown && args.stats.as_deref() == Some(Path::new("-")) {
+    let stats = args.stats.as_deref() == Some(Path::new("-"));
+    if shown && stats {
         return Err(Failure::new(USAGE, "the image and the statistics can't both go to standard output"));
+    }
+    if (shown || stats) && args.progress == ProgressChoice::Openjd {
+        return Err(Failure::new(USAGE, "OpenJD's progress goes to standard output, and nothing else can"));
     }
     Ok(targets)
 }

@@ -5,6 +5,7 @@
 //! Rec. 709; point and spot lights are given in W/sr, emitting surfaces in W·m⁻²·sr⁻¹ and
 //! directional light in W·m⁻².
 
+mod animation;
 mod assets;
 mod camera;
 mod check;
@@ -19,17 +20,21 @@ mod object;
 mod photons;
 mod placed;
 mod places;
+mod reach;
 mod read;
 mod scene;
 mod schema;
 mod settings;
 mod source;
 mod suggest;
+mod terms;
 mod texture;
+mod track;
 mod transform;
 mod tree;
 mod value;
 
+pub use animation::{Animation, Key, KeyValue, Orbit, Track};
 pub use camera::Camera;
 pub use convert::{NotWritable, to_string};
 pub use diagnostic::{Diagnostic, Finding, Kind, Report, Severity};
@@ -41,13 +46,13 @@ pub use object::{Object, Polyhedron, Scatter, Shape, Smooth};
 pub use photons::{Indirect, IndirectBy, Kernel, Photons};
 pub use placed::used_materials;
 pub(crate) use placed::{Use, uses};
-pub use read::{
-    Format, Loaded, Unread, load, load_as_written, load_but, load_str, load_str_as_written, load_str_but,
-};
+pub use reach::{PROJECT_MARK, Reach};
+pub use read::{Format, Loaded, load, load_as_written, load_on, load_str, load_str_as_written, load_str_on};
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use settings::{Antialiasing, Image, Render};
 pub(crate) use suggest::{listed, question};
+pub use terms::{Terms, Unread};
 pub use texture::{ColorSpace, Texture, UvMapping, Wrap};
 pub use transform::{Scale, Transform};
 pub use tree::Path as Place;

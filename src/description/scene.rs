@@ -1,8 +1,8 @@
 //! The whole scene: the root of every scene file.
 
 use super::{
-    Antialiasing, Camera, Image, Indirect, IndirectBy, Light, Material, NameMap, Object, Photons, Render,
-    Rgb, Texture,
+    Animation, Antialiasing, Camera, Image, Indirect, IndirectBy, Light, Material, NameMap, Object, Photons,
+    Reach, Render, Rgb, Texture,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,9 @@ pub struct Scene {
     pub include: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
+    /// What changes from frame to frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub animation: Option<Animation>,
     pub image: Image,
     pub antialiasing: Antialiasing,
     pub render: Render,
@@ -51,4 +54,7 @@ pub struct Scene {
     pub definitions: NameMap<Object>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub objects: Vec<Object>,
+    /// The files that may be read for it: its reader's decision.
+    #[serde(skip)]
+    pub reach: Reach,
 }

@@ -1,11 +1,11 @@
 //! The texts that a scene is read from: files, standard input, `--set` arguments.
 
-use super::Format;
 use super::diagnostic::{Diagnostic, Excerpt, Kind, Severity};
 use super::tree::Span;
+use super::{Format, Reach};
 use std::path::{Path, PathBuf};
 
-/// Scene files above this size are refused, bytes.
+/// A scene file with all that it includes may have so many bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 256 << 20;
 
 #[derive(Debug)]
@@ -104,23 +104,18 @@ impl Sources {
     }
 }
 
-/// Reads a scene file's text: at most `MAX_FILE_BYTES` of UTF-8, without a byte order mark.
-pub(crate) fn read(path: &Path) -> Result<String, Box<Diagnostic>> {
-    let io = |error: &dyn std::fmt::Display| {
+/// Reads a scene file's text: at most `most` bytes of UTF-8, without a byte order mark.
+pub(crate) fn read(path: &Path, reach: &Reach, most: u64) -> Result<String, Box<Diagnostic>> {
+    let io = |error: std::io::Error| {
         Box::new(Diagnostic::of_file(path, Kind::Io, format!("cannot be read: {error}")))
     };
-    let size = std::fs::metadata(path).map_err(|e| io(&e))?;
-    if size.is_dir() {
-        return Err(io(&"it is a folder"));
-    }
-    if size.len() > MAX_FILE_BYTES {
+    let file = reach.open(path).map_err(io)?;
+    if file.metadata().map_err(io)?.len() > most {
         return Err(too_large(path));
     }
-    let file = std::fs::File::open(path).map_err(|e| io(&e))?;
     let mut bytes = Vec::new();
-    std::io::Read::read_to_end(&mut std::io::Read::take(file, MAX_FILE_BYTES + 1), &mut bytes)
-        .map_err(|e| io(&e))?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
+    std::io::Read::read_to_end(&mut std::io::Read::take(file, most + 1), &mut bytes).map_err(io)?;
+    if bytes.len() as u64 > most {
         return Err(too_large(path));
     }
     match String::from_utf8(bytes) {
@@ -150,6 +145,6 @@ fn too_large(path: &Path) -> Box<Diagnostic> {
     Box::new(Diagnostic::of_file(
         path,
         Kind::NotSupported,
-        format!("scene files above {limit} MiB are not read"),
+        format!("scene files of more than {limit} MiB, with all that they include, are not read"),
     ))
 }

@@ -6,6 +6,7 @@
 pub mod atomic;
 mod camera_view;
 pub mod depfile;
+mod display;
 pub mod exr;
 mod image;
 pub mod partial;
@@ -15,6 +16,7 @@ pub mod srgb;
 
 pub use self::image::{Image, Layer, Within};
 pub use camera_view::CameraView;
+pub use display::Display;
 pub use png::{Bits, PngSettings};
 pub use provenance::{COLOR_SPACE, Provenance, Stamp, hex};
 

@@ -18,6 +18,8 @@ pub struct Checkpoint {
     pub every: Duration,
     /// Goes on from the file, if it is there.
     pub resume: bool,
+    /// The partial image that is to become of it: with `resume`, nothing is done if it is there.
+    pub part: Option<PathBuf>,
 }
 
 /// Told from outside to stop.
@@ -81,7 +83,10 @@ impl<'a> Keeper<'a> {
             return Ok(None);
         };
         if !checkpoint.path.exists() {
-            return Ok(None);
+            let part = checkpoint.part.as_ref().and_then(|path| kept::load(path).ok());
+            let same = |kept: &Kept| kept.other_than(self.provenance, &self.form, &self.shards).is_none();
+            let there = part.is_some_and(|kept| kept.part.finished && same(&kept));
+            return if there { Err(RenderError::Already) } else { Ok(None) };
         }
         let name = checkpoint.path.display();
         let failed = |error: String| {

@@ -2,10 +2,10 @@
 
 use super::{Checkpoint, Halt, Planned, Shards};
 use crate::build::BuildError;
-use crate::film::Window;
+use crate::film::{Film, Window};
 use crate::plan::{Antialiasing, Overrides, Plan, Refused, Request, Until};
 use crate::trace::{Probes, Wants};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::str::FromStr;
 use std::time::Instant;
 
@@ -223,6 +223,10 @@ pub trait Progress: Sync {
     fn planned(&self, _: &Planned) {}
     /// The picture's error, as it is and as it should become.
     fn error(&self, _: f64, _: f64) {}
+    /// The picture of so many passes, between two of them; a break ends the render there.
+    fn picture(&self, _: &Film, _passes: u32) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
     /// Something worth a line.
     fn note(&self, message: &str);
 }
@@ -251,6 +255,9 @@ pub enum RenderError {
     TooLarge(String),
     #[error("{0}")]
     Failed(String),
+    /// The part that was asked for is there already.
+    #[error("there already")]
+    Already,
 }
 
 impl RenderError {
@@ -258,6 +265,7 @@ impl RenderError {
     pub fn exit_code(&self) -> u8 {
         match self {
             RenderError::Failed(_) => 1,
+            RenderError::Already => 0,
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
             RenderError::TooLarge(_) => 5,

@@ -99,7 +99,7 @@ pub(super) fn trace(
         if let Some((upcoming, pass)) = upcoming {
             (maps, of, counted) = (upcoming, pass, false);
         }
-        if halted || stop.now(done, &film, progress) {
+        if halted || progress.picture(&film, done).is_break() || stop.now(done, &film, progress) {
             break;
         }
         if keeper.pauses() {

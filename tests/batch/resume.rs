@@ -81,6 +81,20 @@ fn a_render_that_is_stopped_leaves_a_valid_image_and_goes_on() {
     lab.done(&[&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat());
     lab.done(&[&WORK[..], &["-o", "whole.exr"]].concat());
     assert!(lab.bytes("out.exr") == lab.bytes("whole.exr"));
+    // What is complete already is a success, and is not touched.
+    let before = std::fs::metadata(lab.path("out.exr")).and_then(|found| found.modified()).expect("there");
+    lab.done(&[&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat());
+    assert_eq!(std::fs::metadata(lab.path("out.exr")).and_then(|found| found.modified()).ok(), Some(before));
+}
+
+#[test]
+fn a_part_that_is_there_is_not_rendered_again() {
+    let lab = Lab::new(CAUSTIC);
+    let words = ["render", "scene.ron", "--passes", "4", "--shard", "1/2", "-o", "part.exr", "--resume"];
+    lab.done(&words);
+    assert!(lab.done(&words).contains("there already"));
+    let said = lab.done(&[&words[..], &["--seed", "2"]].concat());
+    assert!(!said.contains("there already"), "{said}");
 }
 
 #[cfg(unix)]

@@ -1,5 +1,6 @@
 //! Scene files as a user has them.
 
+mod animation;
 mod assets;
 mod formats;
 mod include;

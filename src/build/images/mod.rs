@@ -14,6 +14,7 @@ mod textures;
 pub use error::ImageError;
 pub use textures::{Images, TextureUse};
 
+use crate::description::Reach;
 use crate::optics::texture::Texels;
 use error::Reason;
 use std::io::Read;
@@ -98,10 +99,15 @@ pub struct LoadedImage {
 /// [`ImageError`]: the file cannot be read, is malformed, is of a kind that is not supported, or is
 /// larger than the limits.
 pub fn load(path: &Path, limits: &Limits) -> Result<LoadedImage, ImageError> {
+    load_within(&Reach::default(), path, limits)
+}
+
+/// As [`load`], of a file within reach.
+fn load_within(reach: &Reach, path: &Path, limits: &Limits) -> Result<LoadedImage, ImageError> {
     let file = |e| ImageError::io(path, e);
     let mut bytes = Vec::new();
     // One byte more than allowed tells a file that is too large from one that just fits.
-    let reader = std::fs::File::open(path).map_err(file)?;
+    let reader = reach.open(path).map_err(file)?;
     reader.take(limits.max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(file)?;
     decode(path, &bytes, limits)
 }

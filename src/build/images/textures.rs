@@ -1,7 +1,7 @@
 //! Described textures and environments made into the renderer's, each file read once.
 
-use super::{Format, ImageError, Limits, LoadedImage, load};
-use crate::description::{self, ColorSpace, EnvironmentMap, Rgb, UvMapping, Wrap};
+use super::{Format, ImageError, Limits, LoadedImage, load_within};
+use crate::description::{self, ColorSpace, EnvironmentMap, Reach, Rgb, UvMapping, Wrap};
 use crate::optics::Environment;
 use crate::optics::texture::{
     Brick, Checker, Checker3d, Colors, Encoding, ImagePlacement, ImageTexture, ImageWrap, Marble, Noise,
@@ -25,6 +25,7 @@ pub enum TextureUse {
 #[derive(Debug)]
 pub struct Images {
     folder: PathBuf,
+    reach: Reach,
     limits: Limits,
     loaded: HashMap<(PathBuf, Encoding), Arc<Pyramid>>,
     formats: HashMap<PathBuf, Format>,
@@ -36,12 +37,18 @@ impl Images {
     pub fn new(folder: &Path, limits: Limits) -> Images {
         Images {
             folder: folder.to_owned(),
+            reach: Reach::default(),
             limits,
             loaded: HashMap::new(),
             formats: HashMap::new(),
             files: Vec::new(),
             warnings: Vec::new(),
         }
+    }
+
+    /// The same, of files within reach only.
+    pub fn within(self, reach: &Reach) -> Images {
+        Images { reach: reach.clone(), ..self }
     }
 
     /// The files that were read, in the order in which they were first asked for.
@@ -135,7 +142,7 @@ impl Images {
 
     fn read(&mut self, path: &str) -> Result<LoadedImage, ImageError> {
         let full = self.folder.join(path);
-        let mut image = load(&full, &self.limits)?;
+        let mut image = load_within(&self.reach, &full, &self.limits)?;
         if self.formats.insert(full.clone(), image.format).is_none() {
             self.files.push(full);
             self.warnings.append(&mut image.warnings);

@@ -16,8 +16,8 @@ mod plain;
 mod polygon;
 mod through_tobj;
 
+use crate::description::Reach;
 use crate::math::{DVec3, Vec2, Vec3};
-use std::fs::{self, File};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
@@ -115,7 +115,15 @@ impl From<io::Error> for Fault {
 /// regular file, not OBJ, or has no faces; `NotSupported` beyond 4 GiB and for concave polygons of
 /// thousands of corners.
 pub fn load(path: &Path) -> Result<ObjMesh, ObjError> {
-    open(path).and_then(|mut file| read(&mut file)).map_err(|fault| fault.at(path))
+    load_within(&Reach::default(), path)
+}
+
+/// As [`load`], of a file within reach.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_within(reach: &Reach, path: &Path) -> Result<ObjMesh, ObjError> {
+    reach.open(path).map_err(Fault::from).and_then(|mut file| read(&mut file)).map_err(|fault| fault.at(path))
 }
 
 /// Loads the mesh of an OBJ text from anything that can be read and rewound; `name` stands for the
@@ -134,18 +142,6 @@ pub fn load_from(mut source: impl Read + Seek + Send, name: &Path) -> Result<Obj
 #[doc(hidden)]
 pub fn load_by_reference(mut source: impl Read + Seek + Send, name: &Path) -> Result<ObjMesh, ObjError> {
     through_tobj::read(&mut source).and_then(assemble::mesh).map_err(|fault| fault.at(name))
-}
-
-/// Asks what the file is before opening it, because opening a FIFO waits for its writer.
-fn open(path: &Path) -> Result<File, Fault> {
-    let about = fs::metadata(path)?;
-    if about.is_dir() {
-        return Err(Fault::Invalid(None, "is a folder, not an OBJ file".into()));
-    }
-    if !about.is_file() {
-        return Err(Fault::Invalid(None, "is not a regular file".into()));
-    }
-    Ok(File::open(path)?)
 }
 
 fn read(source: &mut (impl Read + Seek + Send)) -> Result<ObjMesh, Fault> {

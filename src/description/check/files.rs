@@ -4,8 +4,9 @@
 use super::{Checker, Kind, Severity};
 use crate::description::suggest::nearest;
 use crate::description::tree::Path;
-use crate::description::{Material, Unread, used_materials};
+use crate::description::{Material, Reach, Unread, used_materials};
 use std::collections::{HashMap, HashSet};
+use std::io::ErrorKind;
 use std::path::Path as FilePath;
 
 pub(super) fn check(c: &mut Checker, files: &[(String, Path)], unread: Unread) {
@@ -16,7 +17,7 @@ pub(super) fn check(c: &mut Checker, files: &[(String, Path)], unread: Unread) {
             c.error(place, "a file's path cannot be empty");
             continue;
         }
-        let problem = problems.entry(path).or_insert_with(|| problem(&c.folder.join(path)));
+        let problem = problems.entry(path).or_insert_with(|| problem(&c.folder.join(path), &c.scene.reach));
         if let Some(message) = problem.clone() {
             let severity = if idle.contains(place) { Severity::Warning } else { Severity::Error };
             c.report(severity, Kind::Io, &[place], message, None);
@@ -44,17 +45,14 @@ fn read_by(material: &Material, unread: Unread) -> impl Iterator<Item = &str> {
 }
 
 /// Why a file cannot be read.
-fn problem(file: &FilePath) -> Option<String> {
-    let problem = match std::fs::metadata(file) {
-        Ok(meta) if meta.is_dir() => "it is a folder".to_owned(),
-        // to open anything else, such as a pipe, could wait forever
-        Ok(meta) if !meta.is_file() => "it is not a regular file".to_owned(),
-        Ok(_) => std::fs::File::open(file).err()?.to_string(),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        Err(error) => error.to_string(),
+fn problem(file: &FilePath, reach: &Reach) -> Option<String> {
+    let problem = reach.open(file).err()?;
+    // a folder out of reach is not looked into
+    let near = match problem.kind() {
+        ErrorKind::NotFound => neighbour(file).map(|name| format!("; did you mean `{name}`?")),
+        _ => None,
     };
-    let near = neighbour(file).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
-    Some(format!("`{}` cannot be read: {problem}{near}", file.display()))
+    Some(format!("`{}` cannot be read: {problem}{}", file.display(), near.unwrap_or_default()))
 }
 
 /// A file of the same folder with nearly that name.

@@ -3,7 +3,7 @@
 
 use super::{Format, Reading};
 use crate::description::diagnostic::Kind;
-use crate::description::source::{self, Source};
+use crate::description::source::{self, MAX_FILE_BYTES, Source};
 use crate::description::tree::{Entry, Node, Span, Style, Value};
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,8 @@ const MAX_FILES: usize = 256;
 /// What an included file may say, and whether it is a map of names.
 const SHARED: [(&str, bool); 5] =
     [("textures", true), ("materials", true), ("lights", true), ("definitions", true), ("objects", false)];
-const MAIN_ONLY: [&str; 6] = ["camera", "image", "antialiasing", "render", "background", "ambient"];
+const MAIN_ONLY: [&str; 7] =
+    ["camera", "animation", "image", "antialiasing", "render", "background", "ambient"];
 
 /// Merges into `root`, the tree of source 0, all that it includes.
 pub(super) fn merge(reading: &mut Reading, root: &mut Node) {
@@ -79,7 +80,9 @@ impl Merge {
         let Some(format) = Format::from_path(&file) else {
             return refused(reading, Kind::NotSupported, format!("`{path}` does not end in .ron or .toml"));
         };
-        let text = match source::read(&file) {
+        let read: usize = reading.sources.sizes().sum();
+        let left = MAX_FILE_BYTES.saturating_sub(read as u64);
+        let text = match source::read(&file, &reading.terms.reach, left) {
             Ok(text) => text,
             Err(error) => {
                 let message = format!("`{}` {}", file.display(), error.message);

@@ -1,5 +1,6 @@
 //! Reading: text → tree → `include` → `--set` → types → checks, with every mistake in one report.
 
+mod animate;
 mod de;
 mod fault;
 mod include;
@@ -11,9 +12,9 @@ mod toml;
 use super::check;
 use super::diagnostic::{Diagnostic, Kind, Report, Severity};
 use super::places::Places;
-use super::source::{self, Source, Sources};
+use super::source::{self, MAX_FILE_BYTES, Source, Sources};
 use super::tree::{Index, Node, Span};
-use super::{Scene, assets};
+use super::{Animation, Reach, Scene, Terms, assets};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -48,59 +49,55 @@ pub struct Loaded {
     pub files: Vec<PathBuf>,
     /// The folder that the scene's paths were relative to.
     pub folder: PathBuf,
+    /// The meshes and images that the scene names; paths as in the scene.
+    pub assets: Vec<PathBuf>,
+    /// What of the scene changes with the frame; the scene itself is that of one frame and has none.
+    pub animation: Option<Animation>,
     /// SHA-256 of what the scene says, whatever the format, the layout or the folder it is read from.
     pub hash: [u8; 32],
     pub(super) places: Arc<Places>,
 }
 
-/// What of a scene a caller will leave out, so that files which nothing else names may be missing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Unread {
-    pub normal_maps: bool,
-    pub bump_maps: bool,
-    pub environment: bool,
-}
-
 /// Reads and checks a scene file, after `overrides` (`path.to.key=value`) have been applied to it.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Report> {
-    load_but(path, overrides, Unread::default())
+    load_on(&Terms::default(), path, overrides)
 }
 
-/// As [`load`]; missing files of what is left `unread` are warnings.
-pub fn load_but(path: &Path, overrides: &[String], unread: Unread) -> Result<Loaded, Report> {
+/// As [`load`], on these terms.
+pub fn load_on(terms: &Terms, path: &Path, overrides: &[String]) -> Result<Loaded, Report> {
     let (text, format) = open(path)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    Reading { unread, ..Reading::new(folder) }.load(Some(path.to_owned()), text, format, overrides)
+    Reading::new(folder, terms).load(Some(path.to_owned()), text, format, overrides)
 }
 
 /// Reads and checks a scene that is at hand as text; its paths are relative to `folder`.
 pub fn load_str(text: &str, format: Format, folder: &Path, overrides: &[String]) -> Result<Loaded, Report> {
-    load_str_but(text, format, folder, overrides, Unread::default())
+    load_str_on(&Terms::default(), text, format, folder, overrides)
 }
 
-/// As [`load_str`]; missing files of what is left `unread` are warnings.
-pub fn load_str_but(
+/// As [`load_str`], on these terms.
+pub fn load_str_on(
+    terms: &Terms,
     text: &str,
     format: Format,
     folder: &Path,
     overrides: &[String],
-    unread: Unread,
 ) -> Result<Loaded, Report> {
     let text = source::without_mark(text.to_owned());
-    Reading { unread, ..Reading::new(folder.to_owned()) }.load(None, text, format, overrides)
+    Reading::new(folder.to_owned(), terms).load(None, text, format, overrides)
 }
 
 /// The scene of a file alone, for `convert`: `include` and paths as written, values not checked.
 pub fn load_as_written(path: &Path, overrides: &[String]) -> Result<Scene, Report> {
     let (text, format) = open(path)?;
-    let mut reading = Reading::new(path.parent().unwrap_or(Path::new("")).to_owned());
+    let mut reading = Reading::new(path.parent().unwrap_or(Path::new("")).to_owned(), &Terms::default());
     reading.as_written(Some(path.to_owned()), text, format, overrides)
 }
 
 /// As `load_as_written`, from text.
 pub fn load_str_as_written(text: &str, format: Format, overrides: &[String]) -> Result<Scene, Report> {
     let text = source::without_mark(text.to_owned());
-    Reading::new(PathBuf::new()).as_written(None, text, format, overrides)
+    Reading::new(PathBuf::new(), &Terms::default()).as_written(None, text, format, overrides)
 }
 
 /// RON as scenes are written: `Some` may be left out, and the parentheses of a struct within a variant.
@@ -121,7 +118,7 @@ fn open(path: &Path) -> Result<(String, Format), Report> {
         let message = "a scene file's name ends in .ron or .toml".to_owned();
         Diagnostic::of_file(path, Kind::NotSupported, message)
     })?;
-    Ok((source::read(path)?, format))
+    Ok((source::read(path, &Reach::default(), MAX_FILE_BYTES)?, format))
 }
 
 struct Reading {
@@ -130,17 +127,17 @@ struct Reading {
     diagnostics: Vec<Diagnostic>,
     /// An included file could not be read: names may be missing for that reason.
     incomplete: bool,
-    unread: Unread,
+    terms: Terms,
 }
 
 impl Reading {
-    fn new(folder: PathBuf) -> Reading {
+    fn new(folder: PathBuf, terms: &Terms) -> Reading {
         Reading {
             folder,
             sources: Sources::default(),
             diagnostics: Vec::new(),
             incomplete: false,
-            unread: Unread::default(),
+            terms: terms.clone(),
         }
     }
 
@@ -192,11 +189,15 @@ impl Reading {
         format: Format,
         overrides: &[String],
     ) -> Result<Loaded, Report> {
-        let mut spans = Vec::new();
+        let (mut spans, mut animation) = (Vec::new(), None);
         let scene = self.parse(Self::main_source(file, text, format)).and_then(|mut root| {
             include::merge(&mut self, &mut root);
             set::apply(&mut self, &mut root, overrides);
             let mut scene: Scene = recover::read(&mut root, &self.sources, &mut self.diagnostics)?;
+            if let Some(moving) = scene.animation.take() {
+                scene = self.frame(&mut root, &moving, overrides)?;
+                animation = Some(moving);
+            }
             scene.include.clear();
             // a single file's paths need no change
             let included = self.sources.files().len() > 1;
@@ -208,13 +209,14 @@ impl Reading {
                 }
                 named.push((path.clone(), place.clone()));
             });
+            scene.reach = self.terms.reach.clone();
             let (folder, sound) = (&self.folder, self.diagnostics.is_empty());
             let found = check::check(
                 &scene,
                 &index,
                 &self.sources,
                 folder,
-                (&named, self.unread),
+                (&named, self.terms.unread),
                 self.incomplete,
                 sound,
             );
@@ -224,11 +226,28 @@ impl Reading {
         });
         let mut scene = self.finish(scene)?;
         let hash = hash(&scene);
-        assets::for_each(&mut scene, &mut |path, _| rebase(path, &self.folder));
+        let mut assets = Vec::new();
+        assets::for_each(&mut scene, &mut |path, _| {
+            rebase(path, &self.folder);
+            assets.push(PathBuf::from(&*path));
+        });
         let warnings = Report::new(self.diagnostics).diagnostics;
         let files = self.sources.files();
         let places = Arc::new(Places::new(self.sources, spans));
-        Ok(Loaded { scene, warnings, files, folder: self.folder, hash, places })
+        Ok(Loaded { scene, warnings, files, folder: self.folder, assets, animation, hash, places })
+    }
+
+    /// The scene of the frame that was asked for.
+    fn frame(&mut self, root: &mut Node, moving: &Animation, overrides: &[String]) -> Option<Scene> {
+        let frame = self.terms.frame.unwrap_or(1);
+        animate::apply(self, root, moving, frame);
+        animate::warn_of_overrides(self, root, moving, overrides);
+        let mut scene: Scene = recover::read(root, &self.sources, &mut self.diagnostics)?;
+        scene.animation = None;
+        if let (Some(camera), Some(orbit)) = (&mut scene.camera, &moving.orbit) {
+            animate::orbit(camera, orbit, frame, moving.frames);
+        }
+        Some(scene)
     }
 
     /// The scene if nothing is wrong with it.

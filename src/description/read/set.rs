@@ -38,20 +38,8 @@ impl Edit {
     fn new(argument: &str, source: usize) -> Outcome<Edit> {
         let whole = Span { source, start: 0, end: argument.len() };
         let equals = argument.find('=').ok_or((whole, "expected path.to.key=value".to_owned()))?;
-        let mut path = Vec::new();
-        let mut start = 0;
-        for part in argument[..equals].split('.') {
-            let span = Span { source, start, end: start + part.len() };
-            let key = part.trim();
-            if key.is_empty() {
-                return Err((span, "a name is missing in the path".into()));
-            }
-            path.push((key.to_owned(), span));
-            start += part.len() + 1;
-        }
-        if path.len() > 64 {
-            return Err((whole, "the path is too long".into()));
-        }
+        let part = |start, end| Span { source, start, end };
+        let path = steps(&argument[..equals], whole, part)?;
         Ok(Edit { path, value: value(argument, equals + 1, source) })
     }
 
@@ -68,6 +56,34 @@ impl Edit {
         }
         put(root, &self.path, &mut Vec::new(), self.value)
     }
+}
+
+/// A path's names, each with the span of its bytes.
+fn steps(path: &str, whole: Span, span: impl Fn(usize, usize) -> Span) -> Outcome<Vec<(String, Span)>> {
+    let mut steps = Vec::new();
+    let mut start = 0;
+    for part in path.split('.') {
+        let span = span(start, start + part.len());
+        let key = part.trim();
+        if key.is_empty() {
+            return Err((span, "a name is missing in the path".into()));
+        }
+        steps.push((key.to_owned(), span));
+        start += part.len() + 1;
+    }
+    if steps.len() > 64 {
+        return Err((whole, "the path is too long".into()));
+    }
+    Ok(steps)
+}
+
+/// Puts a value of the scene's own at a path; `span` is where the scene names it.
+pub(super) fn put_at(root: &mut Node, path: &str, span: Span, value: Node) -> Outcome<()> {
+    let path = steps(path, span, |_, _| span)?;
+    if path[0].0 == "animation" || path[0].0 == "include" {
+        return Err((span, format!("`{}` is the same for all frames", path[0].0)));
+    }
+    Edit { path, value }.apply(root)
 }
 
 /// The value behind `=`: RON, or else plain text.

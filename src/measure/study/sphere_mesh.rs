@@ -24,6 +24,7 @@ pub fn replace(scene: &mut Scene, segments: u32, meshes: &Path) {
         let path = file(meshes, segments, number).to_string_lossy().into_owned();
         object.shape = Shape::Mesh { path, smooth: Smooth::Interpolated, parts: NameMap::default() };
     }
+    scene.reach.allow(meshes);
 }
 
 /// The meshes' files and what they hold.
