@@ -23,8 +23,11 @@ mod output;
 mod photons;
 #[path = "plan/main.rs"]
 mod plan;
+#[path = "properties/main.rs"]
+mod properties;
 #[path = "render/main.rs"]
 mod render;
+mod replay;
 #[path = "scene_files/main.rs"]
 mod scene_files;
 mod shapes;

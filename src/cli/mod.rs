@@ -14,6 +14,7 @@ mod measure;
 mod plan;
 mod progress;
 mod render;
+mod replay;
 mod report;
 mod study;
 mod study_args;

@@ -8,6 +8,7 @@ use super::args::RenderArgs;
 use super::check::{files, load_and_report, refused, set_threads};
 use super::exit::{Failure, USAGE};
 use super::progress::{Reporter, duration, short};
+use super::replay;
 use super::report::{self, Terminal};
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
@@ -20,6 +21,9 @@ use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Options, Progress, RenderError, Rendered};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
+    if let Some(pixel) = args.replay.pixel {
+        return replay::run(args, pixel, terminal);
+    }
     let began = Instant::now();
     let targets = targets(args)?;
     refuse_mixed_up_files(args, &targets)?;
