@@ -19,6 +19,8 @@ mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+#[path = "pairs/main.rs"]
+mod pairs;
 #[path = "photons/main.rs"]
 mod photons;
 #[path = "plan/main.rs"]
