@@ -5,6 +5,8 @@
 mod accuracy;
 mod assets;
 mod command_line;
+#[path = "corpus/main.rs"]
+mod corpus;
 #[path = "diff/main.rs"]
 mod diff;
 mod forecast;
