@@ -14,6 +14,7 @@ mod gallery;
 mod guide;
 #[path = "hard_cases/mod.rs"]
 mod hard_cases;
+mod health;
 mod layers;
 mod makefile;
 #[path = "messages/main.rs"]
