@@ -8,8 +8,10 @@ use terrarium::build::{images, obj};
 use terrarium::description::{Format, Scene, load_str, load_str_as_written, to_string};
 use terrarium::output::depfile;
 
+pub type Reader = fn(&[u8]);
+
 /// The readers by the name of their folder.
-pub const READERS: [(&str, fn(&[u8])); 8] = [
+pub const READERS: [(&str, Reader); 8] = [
     ("scene_ron", scene_ron),
     ("scene_toml", scene_toml),
     ("set", set),
