@@ -5,4 +5,8 @@
 #[path = "../../tests/corpus/read.rs"]
 mod read;
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| read::scene_ron(bytes));
+libfuzzer_sys::fuzz_target!(
+    // A panic of a decoder that its reader catches is an error like others; one that comes out is a finding.
+    init: std::panic::set_hook(Box::new(|panic| eprintln!("{panic}"))),
+    |bytes: &[u8]| read::scene_ron(bytes)
+);
