@@ -13,7 +13,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names gallery turntable test hard lint bench yardstick honesty study assets schema install clean help FORCE
+.PHONY: all build renders images names gallery turntable test hard crosscheck lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -141,6 +141,12 @@ hard:
 	    --skip table:: --skip record::
 	@HARD_CASES_OUT='$(abspath $(HARD))' \
 	    $(CARGO) test --release --locked --test all -- --ignored --exact hard_cases::table::write_the_page
+
+## crosscheck: scenes rendered by Mitsuba 3 too, and docs/crosscheck.md; needs python3 with mitsuba (PYTHON=...), else it is skipped
+PYTHON ?= python3
+crosscheck: build
+	@command -v '$(PYTHON)' >/dev/null || { echo "make crosscheck: skipped: there is no $(PYTHON)"; exit 0; }; \
+	    TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 '$(PYTHON)' benches/crosscheck.py
 
 ## lint: formatting and clippy, without a warning
 lint:

@@ -12,6 +12,7 @@ mod photons;
 mod planned;
 mod prepare;
 mod prices;
+mod replay;
 mod room;
 mod share;
 mod stats;
@@ -19,7 +20,7 @@ mod stop;
 
 use crate::description::Loaded;
 use crate::film::Film;
-use crate::math::Rare;
+use crate::math::{Place, Rare};
 use crate::output;
 use crate::plan::Plan;
 use crate::survey::Survey;
@@ -37,6 +38,7 @@ pub use photons::{AllPhotons, LightPhotons, PhotonStats, Watts};
 pub use planned::Planned;
 use prepare::Prepared;
 pub use prices::Priced;
+pub use replay::{Replay, replay};
 pub use share::{By, Shards};
 pub use stats::{Memory, RareEvent, SceneSize, StageTime, Stats};
 use std::path::PathBuf;
@@ -136,14 +138,14 @@ fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
     for (event, count) in health.excesses() {
         let places: Vec<String> = health.places.iter().take(3).map(ToString::to_string).collect();
         let at = if event == Rare::NonFiniteSample {
-            format!(", first at {}", places.join("; "))
+            format!(", first at {}{}", places.join("; "), replayed(tally))
         } else {
             String::new()
         };
         warnings.push(format!(
-            "{}: {count} in {} samples, more than {} is unhealthy{at}",
+            "{}: {count} in {} paths, more than {} is unhealthy{at}",
             event.name(),
-            health.samples,
+            health.trials(),
             event.allowed()
         ));
     }
@@ -159,11 +161,17 @@ fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
     warnings
 }
 
+/// How the first sample that was dropped can be looked at.
+fn replayed(tally: &Tally) -> String {
+    let Some(Place { x, y, pass }) = tally.health.places.first() else { return String::new() };
+    format!("; `terrarium render` with `--pixel {x},{y} --pass {pass}` replays the first")
+}
+
 fn refuse_excesses(tally: &Tally) -> Result<(), RenderError> {
     let excesses: Vec<String> =
         tally.health.excesses().map(|(event, count)| format!("{count} {}", event.name())).collect();
     if excesses.is_empty() {
         return Ok(());
     }
-    Err(RenderError::Failed(format!("unhealthy: {} (--strict)", excesses.join(", "))))
+    Err(RenderError::Failed(format!("unhealthy: {} (--strict){}", excesses.join(", "), replayed(tally))))
 }

@@ -7,6 +7,8 @@ mod assets;
 #[path = "batch/main.rs"]
 mod batch;
 mod command_line;
+#[path = "corpus/main.rs"]
+mod corpus;
 #[path = "diff/main.rs"]
 mod diff;
 mod forecast;
@@ -15,6 +17,7 @@ mod gallery;
 mod guide;
 #[path = "hard_cases/mod.rs"]
 mod hard_cases;
+mod health;
 mod layers;
 mod makefile;
 #[path = "messages/main.rs"]
@@ -22,13 +25,18 @@ mod messages;
 #[path = "obj/main.rs"]
 mod obj;
 mod output;
+#[path = "pairs/main.rs"]
+mod pairs;
 mod paths;
 #[path = "photons/main.rs"]
 mod photons;
 #[path = "plan/main.rs"]
 mod plan;
+#[path = "properties/main.rs"]
+mod properties;
 #[path = "render/main.rs"]
 mod render;
+mod replay;
 #[path = "scene_files/main.rs"]
 mod scene_files;
 mod shapes;

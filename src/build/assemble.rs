@@ -81,6 +81,7 @@ pub(super) fn assemble(
         instances: placed.instances,
         bindings: placed.bindings,
         materials: surfaces.materials,
+        material_names: surfaces.material_names,
         textures: surfaces.textures,
         emitters: lights.emitters,
         environment: lights.environment,

@@ -96,7 +96,7 @@ fn luminous_shape(
     };
     let placement =
         Placement::new(map).ok_or_else(|| BuildError::Invalid(format!("light `{name}` has no extent")))?;
-    let material = surfaces.add_light(rgb(radiance), emits_back);
+    let material = surfaces.add_light(name, rgb(radiance), emits_back);
     let instance = placed.instances.len() as u32;
     placed.geometries.push(Geometry::Shape(shape));
     placed.bindings.push(vec![material]);

@@ -17,6 +17,7 @@ use std::path::Path;
 pub(super) struct Surfaces {
     pub textures: Vec<Texture>,
     pub materials: Vec<Material>,
+    pub material_names: Vec<String>,
     ids: HashMap<String, MaterialId>,
     /// The image files that were read, for the environment to read from too.
     pub images: Images,
@@ -32,15 +33,16 @@ impl Surfaces {
         let images = Images::new(Path::new(""), Limits::default()).within(&scene.reach);
         let flat = plan.leaves_out(Effect::Textures);
         let mut textures = Textures { scene, flat, list: Vec::new(), ids: HashMap::new(), images };
-        let (mut materials, mut ids) = (Vec::new(), HashMap::new());
+        let (mut materials, mut material_names, mut ids) = (Vec::new(), Vec::new(), HashMap::new());
         for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
             let mut material = textures.material(described)?;
             material.textured |= plan.forced();
             check_energy(name, &material, &textures.list)?;
             ids.insert(name.to_owned(), MaterialId(materials.len() as u32));
             materials.push(material);
+            material_names.push(name.to_owned());
         }
-        Ok(Surfaces { textures: textures.list, materials, ids, images: textures.images })
+        Ok(Surfaces { textures: textures.list, materials, material_names, ids, images: textures.images })
     }
 
     /// What is wrong with the images that used materials name, and with what these make of them; gives
@@ -78,8 +80,9 @@ impl Surfaces {
             .ok_or_else(|| BuildError::Invalid(format!("no material is named `{name}`")))
     }
 
-    /// A material that only emits, for a light with an extent.
-    pub fn add_light(&mut self, radiance: Vec3, emits_back: bool) -> MaterialId {
+    /// A material that only emits, for the light `name` with an extent.
+    pub fn add_light(&mut self, name: &str, radiance: Vec3, emits_back: bool) -> MaterialId {
+        self.material_names.push(name.to_owned());
         self.materials.push(Material {
             diffuse: Weight::ZERO,
             specular: Weight::ZERO,

@@ -28,6 +28,8 @@ pub struct World {
     /// By emitter, what lies around those without an extent, in scenes of few objects.
     pub sights: Vec<Option<Sight>>,
     pub materials: Vec<Material>,
+    /// By material: its name in the scene, or that of the light with an extent that it was made for.
+    pub material_names: Vec<String>,
     pub textures: Vec<Texture>,
     pub emitters: Vec<Emitter>,
     pub environment: Option<Environment>,

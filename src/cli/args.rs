@@ -30,6 +30,7 @@ Examples:
   terrarium render scene.ron -o image.exr -o image.png --passes 256 --aov normal,depth,albedo
   terrarium render scene.ron -o image.exr --depfile image.d --stats image.json
   terrarium render scene.ron -o frames/####.png --frames 1-48
+  terrarium render scene.ron --pixel 120,45 --pass 3
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
 
 const FARM_EXAMPLES: &str = "\
@@ -118,8 +119,10 @@ pub struct RenderArgs {
     /// The scene, .ron or .toml; `-` reads it from standard input
     pub scene: PathBuf,
     /// The image to write, .exr or .png; `-` is standard output; may be given several times
-    #[arg(short, long, value_name = "FILE", required_unless_present = "out_dir")]
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["out_dir", "pixel"])]
     pub output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub replay: ReplayArgs,
     /// Format of the image that goes to standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
     pub format: ImageFormat,
@@ -160,6 +163,22 @@ pub struct RenderArgs {
     /// Print the plan and the files that were read
     #[arg(short, long)]
     pub verbose: bool,
+}
+
+/// One pixel of one pass instead of an image.
+#[derive(Clone, Debug, ClapArgs)]
+pub struct ReplayArgs {
+    /// Instead of rendering, trace one pixel of one pass again and print all that its paths met. The pixel is
+    /// counted from 0, from the top left
+    #[arg(long, value_name = "X,Y", value_parser = pixel,
+          conflicts_with_all = ["output", "stats", "depfile", "strict", "stamp", "passes"])]
+    pub pixel: Option<[u32; 2]>,
+    /// The pass that --pixel is of
+    #[arg(long, value_name = "N", default_value_t, requires = "pixel", conflicts_with = "output")]
+    pub pass: u32,
+    /// Print what --pixel finds as JSON
+    #[arg(long, requires = "pixel", conflicts_with = "output")]
+    pub json: bool,
 }
 
 /// What is rendered of a scene: the same for a plan as for the render.
@@ -315,6 +334,13 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)
+}
+
+/// A column and a row.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let number = |part: &str| part.trim().parse::<u32>().ok();
+    let found = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    found.ok_or_else(|| format!("`{text}` is no pixel: 120,45"))
 }
 
 /// Seconds from a number with a unit.

@@ -23,6 +23,7 @@ mod merge;
 mod plan;
 mod progress;
 mod render;
+mod replay;
 mod report;
 mod signals;
 mod study;

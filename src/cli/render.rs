@@ -11,6 +11,7 @@ use super::finished::finished;
 use super::frames::{self, Place};
 use super::machine;
 use super::progress::{Reporter, duration, short};
+use super::replay;
 use super::report::{self, Terminal};
 use super::signals::stop_on_signals;
 use super::summary::{Summary, worst};
@@ -26,6 +27,9 @@ use terrarium::plan::{MOST_PASSES, Plan, Until};
 use terrarium::render::{self, Checkpoint, Options, Part, Progress, RenderError, Rendered, Shards};
 
 pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
+    if let Some(pixel) = args.replay.pixel {
+        return replay::run(args, pixel, terminal);
+    }
     set_threads(args.work.threads)?;
     let outcome = frames::asked(args)
         .and_then(|asked| frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal)));

@@ -10,7 +10,8 @@ pub fn stop_on_signals() -> Halt {
         let halt = Halt::default();
         for signal in signals() {
             // In this order: the second signal finds the flag set.
-            let _ = signal_hook::flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&halt.0));
+            let _ =
+                signal_hook::flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&halt.0));
             let _ = signal_hook::flag::register(signal, Arc::clone(&halt.0));
         }
         halt

@@ -13,15 +13,18 @@ pub enum Rare {
     MediaOverflow,
     /// A shading normal that sent a mirrored or refracted direction through the surface.
     DirectionThroughSurface,
+    /// A photon with NaN or infinity in it: left out and counted.
+    NonFinitePhoton,
 }
 
 impl Rare {
-    pub const ALL: [Rare; 3] = [Rare::NonFiniteSample, Rare::MediaOverflow, Rare::DirectionThroughSurface];
+    pub const ALL: [Rare; 4] =
+        [Rare::NonFiniteSample, Rare::MediaOverflow, Rare::DirectionThroughSurface, Rare::NonFinitePhoton];
 
     /// The share of trials up to which the event is healthy.
     pub fn allowed(self) -> f64 {
         match self {
-            Rare::NonFiniteSample | Rare::MediaOverflow => 0.0,
+            Rare::NonFiniteSample | Rare::NonFinitePhoton | Rare::MediaOverflow => 0.0,
             Rare::DirectionThroughSurface => 0.02,
         }
     }
@@ -29,6 +32,7 @@ impl Rare {
     pub fn name(self) -> &'static str {
         match self {
             Rare::NonFiniteSample => "non-finite samples",
+            Rare::NonFinitePhoton => "non-finite photons",
             Rare::MediaOverflow => "media overflows",
             Rare::DirectionThroughSurface => "directions through the surface",
         }
@@ -53,8 +57,9 @@ impl fmt::Display for Place {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Health {
     counts: [u64; Rare::ALL.len()],
-    /// Camera samples: what every event is a share of.
+    /// Camera samples, and photons that were sent out: together what every event is a share of.
     pub samples: u64,
+    pub photons: u64,
     /// The first few places of non-finite samples.
     pub places: Vec<Place>,
 }
@@ -65,6 +70,10 @@ const PLACES: usize = 16;
 impl Health {
     pub fn count(&mut self, event: Rare) {
         self.counts[event as usize] += 1;
+    }
+
+    pub fn count_many(&mut self, event: Rare, times: u64) {
+        self.counts[event as usize] += times;
     }
 
     pub fn non_finite(&mut self, place: Place) {
@@ -83,15 +92,56 @@ impl Health {
             *sum += count;
         }
         self.samples += other.samples;
+        self.photons += other.photons;
         let room = PLACES - self.places.len().min(PLACES);
         self.places.extend(other.places.iter().take(room));
+    }
+
+    /// Paths from the eye and from lights: what events are a share of.
+    pub fn trials(&self) -> u64 {
+        self.samples + self.photons
     }
 
     /// Events above their healthy share.
     pub fn excesses(&self) -> impl Iterator<Item = (Rare, u64)> {
         Rare::ALL.into_iter().filter_map(|event| {
             let count = self.of(event);
-            (count as f64 > event.allowed() * self.samples as f64).then_some((event, count))
+            (count as f64 > event.allowed() * self.trials() as f64).then_some((event, count))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One more than the allowed share is an excess, the share itself is not; sums are those of the parts.
+    #[test]
+    fn events_above_their_share_are_excesses() {
+        for event in Rare::ALL {
+            let (samples, photons) = (300, 200);
+            let allowed = (event.allowed() * 500.0) as u64;
+            let mut health = Health { samples, photons, ..Health::default() };
+            health.count_many(event, allowed);
+            assert_eq!(health.excesses().count(), 0, "{}", event.name());
+            let mut one = Health::default();
+            one.count(event);
+            health.add(&one);
+            assert_eq!(health.excesses().collect::<Vec<_>>(), [(event, allowed + 1)]);
+            assert_eq!((health.trials(), health.of(event)), (500, allowed + 1));
+        }
+    }
+
+    #[test]
+    fn the_first_places_are_kept_and_all_are_counted() {
+        let mut health = Health::default();
+        for x in 0..100 {
+            let mut tile = Health::default();
+            tile.non_finite(Place { x, y: 0, pass: 0 });
+            health.add(&tile);
+        }
+        let kept: Vec<u32> = health.places.iter().map(|place| place.x).collect();
+        assert_eq!(kept, (0..PLACES as u32).collect::<Vec<_>>());
+        assert_eq!(health.of(Rare::NonFiniteSample), 100);
     }
 }

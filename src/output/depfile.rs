@@ -35,6 +35,9 @@ fn escape(path: &Path) -> Result<String, OutputError> {
         OutputError::NotSupported(format!("`{}` in a dependency file: it holds {reason}", path.display()))
     };
     let name = path.to_str().ok_or_else(|| refused("bytes that are not UTF-8"))?;
+    if name.is_empty() {
+        return Err(refused("nothing"));
+    }
     let mut escaped = String::with_capacity(name.len());
     let mut backslashes = 0;
     for character in name.chars() {
@@ -79,6 +82,6 @@ mod tests {
         ] {
             assert_eq!(escape(Path::new(path)).ok().as_deref(), Some(expected));
         }
-        assert!(escape(Path::new("two\nlines")).is_err());
+        assert!(escape(Path::new("two\nlines")).is_err() && escape(Path::new("")).is_err());
     }
 }

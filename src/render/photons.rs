@@ -3,7 +3,7 @@
 use crate::build::World;
 use crate::forecast::PhotonSeconds;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
-use crate::math::Health;
+use crate::math::{Health, Rare};
 use crate::plan::{self, Carriers, IndirectBy, PhotonBudget, PhotonEngine, Plan};
 use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
@@ -218,6 +218,7 @@ impl PassStages {
     pub(super) fn count(&self, stats: &mut AllPhotons, health: &mut Health, maps: &PassMaps) {
         for map in [&maps.caustic, &maps.indirect].into_iter().flatten() {
             health.add(&map.health);
+            health.count_many(Rare::NonFinitePhoton, map.map.refused() as u64);
         }
         let one =
             |stats: &mut Option<PhotonStats>, stage: &Option<PhotonStage>, map: &Option<PassPhotons>| {
@@ -261,9 +262,6 @@ impl AllPhotons {
     pub(super) fn warnings(&self, max_depth: u32) -> Vec<String> {
         let mut warnings = Vec::new();
         for photons in [&self.photons, &self.indirect_photons].into_iter().flatten() {
-            if photons.refused > 0 {
-                warnings.push(format!("{} photons were not finite and are left out", photons.refused));
-            }
             let cut = photons.watts.cut_off / photons.watts.emitted.max(f64::MIN_POSITIVE);
             if cut > 1e-3 {
                 warnings.push(format!(

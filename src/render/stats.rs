@@ -93,7 +93,7 @@ impl Stats {
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
             name: event.name(),
             count: health.of(event),
-            of: health.samples,
+            of: health.trials(),
             allowed: event.allowed(),
         });
         let traced =

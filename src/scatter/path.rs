@@ -17,7 +17,7 @@ use super::photon::Photon;
 use super::source::Start;
 use crate::build::{Colour, Cone, Crossing, Hit, MediaSet, Shading, Surface, World};
 use crate::math::random::Sequence;
-use crate::math::{DVec3, Health, Ray, Vec3};
+use crate::math::{DVec3, Health, Rare, Ray, Vec3};
 use crate::optics::Interface;
 
 /// What paths are followed through.
@@ -88,6 +88,7 @@ impl Walk<'_> {
     /// Follows one photon to its end.
     pub fn follow(&self, start: Start, sequence: Sequence, sink: &mut Sink) {
         sink.ledger.paths += 1;
+        sink.health.photons += 1;
         sink.ledger.emitted += start.power;
         let Start { ray, power, media, falloff, .. } = start;
         let mut path = Path {
@@ -231,6 +232,7 @@ impl Walk<'_> {
         });
         let power = (path.power * attenuation).as_vec3();
         if !power.is_finite() {
+            sink.health.count(Rare::NonFinitePhoton);
             return false;
         }
         sink.ledger.photons += 1;

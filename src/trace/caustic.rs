@@ -23,6 +23,9 @@ pub struct Caustic {
     pub radiance: Vec3,
     /// Photons by area, 1/m².
     pub density: f32,
+    /// Photons in the estimate, and the radius that they were gathered within, metres.
+    pub photons: u32,
+    pub radius: f32,
     /// What the estimate's blur adds; known only where it is looked at.
     pub bias: Vec3,
 }
@@ -63,7 +66,7 @@ impl Tracer<'_> {
         };
         let gathered = gather(None);
         if gathered.photons == 0 {
-            return Caustic::default();
+            return Caustic { radius: gathered.radius, ..Caustic::default() };
         }
         let sequence = branch.sequence.dimension(COVERAGE);
         let correction = self.edge_correction(caustics, surface, shading, &gathered, sequence, tally);
@@ -78,7 +81,13 @@ impl Tracer<'_> {
         };
         let area = std::f32::consts::PI * gathered.radius * gathered.radius;
         let density = gathered.photons as f32 / area;
-        Caustic { radiance: gathered.radiance * correction, density: density * correction, bias }
+        Caustic {
+            radiance: gathered.radiance * correction,
+            density: density * correction,
+            photons: gathered.photons,
+            radius: gathered.radius,
+            bias,
+        }
     }
 
     /// White where a photon lies within what a pixel covers, in the photon's colour.

@@ -46,13 +46,15 @@ impl Tracer<'_> {
                 let u = || if self.plan.soft_shadows { drawn() } else { MIDDLE };
                 self.once(i, lobes, surface, shading, &branch.media, u, tally)
             };
-            if emitter.samples == 1 {
-                sum += part(0, tally);
-                continue;
-            }
-            let mut light = Vec3::ZERO;
-            (0..emitter.samples).for_each(|k| light += part(k, tally));
-            sum += light / emitter.samples as f32;
+            let light = if emitter.samples == 1 {
+                part(0, tally)
+            } else {
+                let mut light = Vec3::ZERO;
+                (0..emitter.samples).for_each(|k| light += part(k, tally));
+                light / emitter.samples as f32
+            };
+            tally.note(|recorder| recorder.light(&emitter.name, light));
+            sum += light;
         }
         sum
     }

@@ -10,6 +10,7 @@ mod direct;
 mod light;
 mod path;
 mod probe;
+mod record;
 mod reference_level;
 mod resting;
 mod sample;
@@ -19,10 +20,13 @@ mod words;
 
 use crate::build::World;
 use crate::index::Caustics;
-use crate::math::{Health, Vec3};
+use crate::math::{DVec3, Health, Place, Vec3};
 use crate::plan::Plan;
 pub use path::Scratch;
 pub use probe::{Kind, LUMINANCE, Parts, Probe, Probes};
+pub use record::{
+    Event, Fate, InterfaceRecord, LightRecord, Met, PhotonRecord, Recorder, SampleRecord, Sent, Vertex,
+};
 pub use reference_level::reference_level;
 pub use resting::Resting;
 pub use sample::{Sample, Wants};
@@ -64,6 +68,8 @@ pub struct Tally {
     /// the samples since it was cleared.
     probing: bool,
     bias: [Vec3; 2],
+    /// Takes down what is traced, where that is asked for.
+    recorder: Option<Box<Recorder>>,
 }
 
 /// Paths that the depth limit has cut.
@@ -118,6 +124,16 @@ pub fn passes(tracer: &Tracer, passes: std::ops::Range<u32>, tile: &mut Tile, ti
     tally.watch.end();
     tally.seconds = began.elapsed().as_secs_f64();
     tally
+}
+
+/// One pixel of one pass again: its value, and the samples that it was made of or that were looked at for it.
+pub fn replay(tracer: &Tracer, place: Place) -> (DVec3, Vec<SampleRecord>) {
+    let mut tally = Tally::default();
+    tally.record();
+    let mut tile = Tile::new(place.x, place.y, 1, 1, layers(&tracer.wants));
+    antialias::pass(tracer, place.pass, &mut tile, &mut Scratch::new(tracer), &mut tally);
+    let samples = tally.recorder.map(|recorder| recorder.into_samples()).unwrap_or_default();
+    (tile.value(place.x, place.y, Layer::Radiance, 1.0), samples)
 }
 
 /// The layers that a film needs for what is wanted of each sample.

@@ -11,6 +11,7 @@
 //! interface (Veach 1997, 5.2).
 
 use super::bounce;
+use super::record::{Fate, InterfaceRecord, Recorder};
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
 use crate::build::{Cone, Crossing, MediaSet, Shading, Surface};
@@ -64,9 +65,9 @@ impl Branch {
 /// Dimensions of a path vertex's random values.
 pub(super) const LIGHTS: u64 = 1;
 const ROULETTE: u64 = 2;
-const MIRROR: u64 = 3;
-const REFLECTED: u64 = 4;
-const REFRACTED: u64 = 5;
+pub(super) const MIRROR: u64 = 3;
+pub(super) const REFLECTED: u64 = 4;
+pub(super) const REFRACTED: u64 = 5;
 
 pub(super) const BOUNCE: u64 = 7;
 pub(super) const COVERAGE: u64 = 8;
@@ -111,6 +112,7 @@ impl Tracer<'_> {
         tally.rays.camera += 1;
         tally.health.samples += 1;
         tally.watch.begin();
+        tally.note(|recorder| recorder.begin(film));
         scratch.sample = Sample::default();
         scratch.branches.clear();
         let mut branch = Branch {
@@ -128,7 +130,10 @@ impl Tracer<'_> {
             self.follow(&mut branch, &mut scratch.sample, &mut scratch.branches, tally);
             match scratch.branches.pop() {
                 Some(next) => branch = next,
-                None => return &scratch.sample,
+                None => {
+                    tally.note(|recorder| recorder.end(scratch.sample.radiance));
+                    return &scratch.sample;
+                }
             }
         }
     }
@@ -146,13 +151,14 @@ impl Tracer<'_> {
     #[inline(never)]
     fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
         tally.watch.enter(branch.part());
+        tally.note(Recorder::arrive);
         let hit = if branch.depth == 0 && branch.bounces == 0 {
             self.world.nearest_from_eye(&branch.ray)
         } else {
             self.world.nearest(&branch.ray, f64::INFINITY)
         };
         let Some(hit) = hit else {
-            return self.deposit(sample, branch, self.leaving(branch));
+            return self.deposit(sample, branch, self.leaving(branch), tally);
         };
         let mut surface = self.world.surface_here(&branch.ray, &hit);
         let mut behind = None;
@@ -179,6 +185,7 @@ impl Tracer<'_> {
                     let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
                     let cone = branch.cone.after(surface.t);
                     let next = Branch { ray, media: crossing.after, cone, ..*branch };
+                    tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
                     return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
                 }
                 self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally);
@@ -190,7 +197,8 @@ impl Tracer<'_> {
         let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
         let emitted = if seen { shading.emitted() } else { Vec3::ZERO };
         let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
-        self.deposit(sample, branch, radiance);
+        tally.note(|recorder| recorder.meet(self.world, &surface, emitted));
+        self.deposit(sample, branch, radiance, tally);
         if shading.km != Vec3::ZERO && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
@@ -245,6 +253,9 @@ impl Tracer<'_> {
         let wavelength = colour.um;
         let cone = branch.cone.after(surface.t);
         let carried = self.carried(branch);
+        tally.note(|recorder| {
+            recorder.interface(InterfaceRecord::new(self.world, branch, crossing, wavelength, &interface))
+        });
         if interface.reflectance > 0.0 && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
             let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
@@ -290,11 +301,13 @@ impl Tracer<'_> {
         branch.class = branch.class.then(class);
         let heaviest = branch.throughput.max_element();
         if heaviest <= 0.0 || heaviest.is_nan() {
+            tally.note(|recorder| recorder.send(&branch, event, Fate::Weightless));
             return;
         }
         if branch.depth > self.plan.max_depth {
             tally.cut.paths += 1;
             tally.cut.weight += f64::from(heaviest);
+            tally.note(|recorder| recorder.send(&branch, event, Fate::DepthLimit));
             return;
         }
         let survival = if event == BOUNCE {
@@ -304,10 +317,12 @@ impl Tracer<'_> {
         };
         if survival < 1.0 {
             if branch.sequence.dimension(ROULETTE).value() >= survival {
+                tally.note(|recorder| recorder.send(&branch, event, Fate::Roulette));
                 return;
             }
             branch.throughput /= survival as f32;
         }
+        tally.note(|recorder| recorder.send(&branch, event, Fate::Followed));
         todo.push(branch);
     }
 
@@ -328,6 +343,7 @@ impl Tracer<'_> {
         let carried = self.carried(branch);
         let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Vec3::ZERO };
         tally.watch.enter(Part::Direct);
+        tally.note(|recorder| recorder.ambient(ambient));
         let radiance = ambient + self.direct(base, branch, surface, shading, tally);
         if self.caustics.is_none() && self.indirect.is_none() && branch.bounces >= self.plan.bounces {
             tally.watch.enter(branch.part());
@@ -359,6 +375,7 @@ impl Tracer<'_> {
             tally.watch.enter(Part::Caustics);
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
+            tally.note(|recorder| recorder.caustic(&caustic));
             tally.bias[0] += branch.throughput * caustic.bias;
             if branch.bounces == 0 {
                 sample.caustic += branch.throughput * caustic.radiance;
@@ -375,6 +392,7 @@ impl Tracer<'_> {
         if let Some(indirect) = &self.indirect {
             tally.watch.enter(Part::Indirect);
             let gathered = self.caustic(indirect, branch, base, surface, shading, tally);
+            tally.note(|recorder| recorder.indirect(&gathered));
             sample.indirect += branch.throughput * gathered.radiance;
             tally.bias[1] += branch.throughput * gathered.bias;
             radiance += gathered.radiance;
@@ -401,8 +419,9 @@ impl Tracer<'_> {
         }
     }
 
-    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3) {
+    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3, tally: &mut Tally) {
         let radiance = branch.throughput * radiance;
+        tally.note(|recorder| recorder.deposit(branch.throughput, radiance));
         sample.radiance += radiance;
         if branch.bounces > 0 {
             sample.indirect += radiance;

@@ -153,11 +153,12 @@ impl Lattice<'_> {
     }
 
     /// Adds a sample to a mean, unless it was dropped.
-    fn add(&self, place: u32, weight: f64, average: &mut Average) {
+    fn add(&mut self, place: u32, weight: f64, average: &mut Average) {
         let radiance = self.radiances[place as usize];
         if !radiance.is_finite() {
             return;
         }
+        self.tally.note(|recorder| recorder.weigh(place, weight));
         match self.samples.get(place as usize) {
             Some(sample) => average.add(sample, weight),
             None => average.add_radiance(radiance, weight),

@@ -102,6 +102,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
 #[inline]
 fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut Tally) {
     if sample.is_finite() {
+        tally.note(|recorder| recorder.weigh_last(1.0));
         average.add(sample, 1.0);
     } else {
         tally.health.non_finite(place);
