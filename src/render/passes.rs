@@ -38,7 +38,8 @@ pub(super) fn trace(
     let mut stop = Stop::new(plan, options, &film);
     progress.start("trace", film.tiles.len() as u64 * u64::from(planned.passes), "tiles");
     let last = plan.first_pass + plan.passes;
-    let batch = if stages.one_map() && !plan.until.is_any() { BATCH } else { 1 };
+    let several = stages.one_map() && !plan.until.is_any() && !progress.looks_on();
+    let batch = if several { BATCH } else { 1 };
     let mut maps = first;
     let mut begin = plan.first_pass;
     while begin < last {
