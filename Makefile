@@ -128,7 +128,7 @@ turntable: build
 
 ## test: build and run every test
 test:
-	$(CARGO) test --release --locked
+	$(CARGO) test --release --locked --lib --bins --tests
 
 # Where the rows of the hard cases are gathered.
 HARD := $(or $(CARGO_TARGET_DIR),target)/hard-cases

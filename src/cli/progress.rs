@@ -239,6 +239,10 @@ impl Progress for Reporter {
         }
     }
 
+    fn looks_on(&self) -> bool {
+        self.viewer.is_some()
+    }
+
     fn picture(&self, film: &Film, passes: u32) -> ControlFlow<()> {
         if let Some(viewer) = &self.viewer {
             viewer.show(film, &self.terminal);

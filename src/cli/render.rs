@@ -62,7 +62,8 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path))?;
     let begun = checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.path.exists());
     let goes_on = place.frame.is_some() || (args.batch.resume && !begun);
-    if goes_on && !args.several.again && shards.is_none() && finished(args, &targets, &loaded, &plan) {
+    let whole = shards.is_none() && args.batch.crop.is_none();
+    if goes_on && !args.several.again && whole && finished(args, &targets, &loaded, &plan) {
         return Ok(already(args, terminal, &reporter));
     }
     probe(args, &targets)?;

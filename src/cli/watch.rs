@@ -226,6 +226,10 @@ impl Progress for View<'_> {
         self.terminal.say(message);
     }
 
+    fn looks_on(&self) -> bool {
+        true
+    }
+
     fn picture(&self, film: &Film, passes: u32) -> ControlFlow<()> {
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
         drawn.passes = passes;

@@ -230,7 +230,7 @@ fn update(name: &str, picture: &Picture, rows: std::ops::Range<usize>) -> Vec<u8
     }
     let row = CHANNELS.len() * picture.width;
     let values = picture.rgb.get(rows.start * row..rows.end * row).unwrap_or_default();
-    values.iter().for_each(|value| packet.0.extend(value.to_le_bytes()));
+    packet.0.extend(values.iter().flat_map(|value| value.to_le_bytes()));
     packet.finish()
 }
 

@@ -223,6 +223,10 @@ pub trait Progress: Sync {
     fn planned(&self, _: &Planned) {}
     /// The picture's error, as it is and as it should become.
     fn error(&self, _: f64, _: f64) {}
+    /// Whether it is looked at after every pass, and not only after several where that is quicker.
+    fn looks_on(&self) -> bool {
+        false
+    }
     /// The picture of so many passes, between two of them; a break ends the render there.
     fn picture(&self, _: &Film, _passes: u32) -> ControlFlow<()> {
         ControlFlow::Continue(())

@@ -53,7 +53,8 @@ pub(super) fn trace(
         Some(shards) => shards.passes(plan),
         None => std::iter::once(plan.first_pass..plan.first_pass + plan.passes).collect(),
     };
-    let batch = if stages.one_map() && !plan.until.is_any() { BATCH } else { 1 };
+    let several = stages.one_map() && !plan.until.is_any() && !progress.looks_on();
+    let batch = if several { BATCH } else { 1 };
     let mut steps = Steps::new(stretches, batch, begin);
     let mut tally = Tally::default();
     let mut photons = stages.stats(world);

@@ -1,5 +1,6 @@
 //! The photon stages of every pass: scatter, then index, ready to be gathered.
 
+use super::Halt;
 use crate::build::World;
 use crate::forecast::PhotonSeconds;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
@@ -160,12 +161,16 @@ impl PassMaps {
 }
 
 impl PassStages {
-    pub fn new(world: &World, plan: &Plan) -> PassStages {
+    pub fn new(world: &World, plan: &Plan, halt: Option<&Halt>) -> PassStages {
         let indirect = PhotonStage::indirect(world, plan);
         // Where photons find indirect light, nothing else asks for caustics behind matt surfaces.
         let seen = plan.carried.first.with(plan.carried.behind).any(Carriers::CAUSTICS);
         let caustic = if seen || indirect.is_none() { PhotonStage::caustic(world, plan) } else { None };
-        PassStages { caustic, indirect }
+        let halting = |stage: PhotonStage| match halt {
+            Some(Halt(halt)) => PhotonStage { emission: stage.emission.halted_by(halt.clone()), ..stage },
+            None => stage,
+        };
+        PassStages { caustic: caustic.map(halting), indirect: indirect.map(halting) }
     }
 
     /// What photons of caustics are sent from where.

@@ -57,7 +57,7 @@ impl Prepared {
             };
             reference_level = trace::reference_level(&tracer);
         }
-        let stages = PassStages::new(&world, &plan);
+        let stages = PassStages::new(&world, &plan, options.halt.as_ref());
         if stages.any() || matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
             clock.lap("pilot");
         }

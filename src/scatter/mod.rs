@@ -33,6 +33,8 @@ use rayon::prelude::*;
 pub use reach::{Aimed, reached};
 use source::{Domain, Source, Start};
 use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Which light becomes photons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +68,8 @@ pub struct Emission {
     cells: Vec<Cell>,
     found: Vec<pilot::Found>,
     emitters: usize,
+    /// Set from outside: photons are of no use any more.
+    halt: Option<Arc<AtomicBool>>,
 }
 
 #[derive(Clone, Debug)]
@@ -108,6 +112,11 @@ const CELLS_OF_A_LIGHT: [usize; 2] = [48, 2048];
 const CHUNK: u64 = 1024;
 
 impl Emission {
+    /// Photons that are asked for once `halt` is set are left out.
+    pub fn halted_by(self, halt: Arc<AtomicBool>) -> Emission {
+        Emission { halt: Some(halt), ..self }
+    }
+
     /// For caustics. `None` where no light reaches a mirror or an interface.
     pub fn new(world: &World, plan: &Plan) -> Option<Emission> {
         Emission::of(world, plan, Store::Caustics, Aim::Casters)
@@ -142,6 +151,7 @@ impl Emission {
             targets,
             cells,
             found: Vec::new(),
+            halt: None,
             emitters: world.emitters.len(),
         };
         emission.found = pilot::explore(&emission, world);
@@ -198,6 +208,9 @@ impl Emission {
         let sinks: Vec<(Sink, Vec<(u32, Ledger)>)> = chunks
             .par_iter()
             .map(|&chunk| {
+                if self.halt.as_ref().is_some_and(|halt| halt.load(Ordering::Relaxed)) {
+                    return Default::default();
+                }
                 let of = chunk * CHUNK..((chunk + 1) * CHUNK).min(emitted);
                 self.chunk(&walk, &runs, &starts, of, count as f64)
             })

@@ -120,7 +120,7 @@ fn a_damaged_part_is_refused() {
     lab.render(&["--passes", "2", "--shard", "0/1", "-o", "part.exr"]);
     let sound = lab.bytes("part.exr");
     let mut other = sound.clone();
-    let at = sound.len() - 5000;
+    let at = sound.len() / 2;
     other[at] ^= 4;
     fs::write(lab.path("part.exr"), other).expect("written");
     assert!(lab.fails(3, &["merge", "part.exr", "-o", "out.exr"]).contains("damaged"));

@@ -22,14 +22,14 @@ fn moment(i: u64, most: u64) -> Duration {
 }
 
 /// A render that would last some seconds.
-const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "240", "-q"];
+const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "150", "-q"];
 
 /// Killed again and again, at other moments, until it is done.
 #[test]
 fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
     for (scene, work) in [
-        (CAUSTIC, &["--passes", "120"][..]),
-        (CAUSTIC, &["--error", "4%", "--passes", "4000"]),
+        (CAUSTIC, &["--passes", "60"][..]),
+        (CAUSTIC, &["--error", "6%", "--passes", "4000"]),
         (ADAPTIVE, &["--passes", "1", "--set", "image.width=500", "--set", "image.height=400"]),
     ] {
         let lab = Lab::new(scene);
@@ -39,7 +39,7 @@ fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
         let whole = began.elapsed().as_millis() as u64;
         let again = [&words[..], &["-o", "killed.exr", "--checkpoint", "10ms", "--resume"]].concat();
         let mut kills = 0;
-        for i in 0..12 {
+        for i in 0..8 {
             let mut child = begun(&lab, &again);
             let end = Instant::now() + moment(i, whole / 2 + 50);
             while Instant::now() < end && child.try_wait().expect("a child").is_none() {
@@ -68,7 +68,7 @@ fn a_render_that_is_stopped_leaves_a_valid_image_and_goes_on() {
     for name in ["-TERM", "-INT", "-USR1"] {
         let words = [&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat();
         let mut child = begun(&lab, &words);
-        std::thread::sleep(Duration::from_millis(700));
+        std::thread::sleep(Duration::from_millis(500));
         let asked = Instant::now();
         signal(&child, name);
         let status = child.wait().expect("it ends");
@@ -124,12 +124,12 @@ fn a_checkpoint_of_another_render_is_refused_with_both_hashes() {
     for (more, reason) in [
         (&["--set", "materials.glass.ior=1.4"][..], "the scene's hash is "),
         (&["--seed", "9"], "the seed is 0 there and 9 here"),
-        (&["--passes", "300"], "the range of passes is 0..240 there and 0..300 here"),
+        (&["--passes", "300"], "the range of passes is 0..150 there and 0..300 here"),
         (&["--aov", "normal"], "layers"),
     ] {
         let mut again: Vec<&str> = words.iter().copied().filter(|word| *word != "-q").collect();
         if more[0] == "--passes" {
-            again.retain(|word| !["--passes", "240"].contains(word));
+            again.retain(|word| !["--passes", "150"].contains(word));
         }
         let said = lab.fails(2, &[&again[..], &["--resume"], more].concat());
         assert!(said.contains("out.exr.checkpoint") && said.contains(reason), "{said}");
