@@ -2,7 +2,9 @@
 
 use super::batch_args::BatchArgs;
 use super::diff_args::{DIFF_EXAMPLES, DiffArgs};
+use super::farm_args::{FARM_EXAMPLES, FarmArgs, MERGE_EXAMPLES, MergeArgs};
 use super::frame_args::FrameArgs;
+use super::replay_args::ReplayArgs;
 use super::study_args::{STUDY_EXAMPLES, StudyArgs};
 use super::watch_args::{WATCH_EXAMPLES, WatchArgs};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
@@ -32,18 +34,6 @@ Examples:
   terrarium render scene.ron -o frames/####.png --frames 1-48
   terrarium render scene.ron --pixel 120,45 --pass 3
   generate | terrarium render - --scene-format toml -o - --format png > image.png";
-
-const FARM_EXAMPLES: &str = "\
-Examples:
-  terrarium farm scene.ron --engine slurm --shards 32 -o image.exr --folder job && sh job/terrarium-scene.submit.sh
-  terrarium farm scene.ron --engine openjd --shards 8 -o image.exr --parts parts";
-
-const MERGE_EXAMPLES: &str = "\
-Examples:
-  terrarium render scene.ron --shard 0/2 -o a.exr
-  terrarium render scene.ron --shard 1/2 -o b.exr
-  terrarium merge a.exr b.exr -o image.exr -o image.png
-  terrarium merge parts/ -o image.exr --allow-missing";
 
 const PLAN_EXAMPLES: &str = "\
 Examples:
@@ -165,22 +155,6 @@ pub struct RenderArgs {
     pub verbose: bool,
 }
 
-/// One pixel of one pass instead of an image.
-#[derive(Clone, Debug, ClapArgs)]
-pub struct ReplayArgs {
-    /// Instead of rendering, trace one pixel of one pass again and print all that its paths met. The pixel is
-    /// counted from 0, from the top left
-    #[arg(long, value_name = "X,Y", value_parser = pixel,
-          conflicts_with_all = ["output", "stats", "depfile", "strict", "stamp", "passes"])]
-    pub pixel: Option<[u32; 2]>,
-    /// The pass that --pixel is of
-    #[arg(long, value_name = "N", default_value_t, requires = "pixel", conflicts_with = "output")]
-    pub pass: u32,
-    /// Print what --pixel finds as JSON
-    #[arg(long, requires = "pixel", conflicts_with = "output")]
-    pub json: bool,
-}
-
 /// What is rendered of a scene: the same for a plan as for the render.
 #[derive(Clone, Debug, ClapArgs)]
 pub struct Work {
@@ -235,67 +209,6 @@ impl Work {
 }
 
 #[derive(Debug, ClapArgs)]
-pub struct FarmArgs {
-    /// The scene, .ron or .toml, at the same place on every machine
-    pub scene: PathBuf,
-    /// The engine that will render
-    #[arg(long, value_enum, value_name = "ENGINE")]
-    pub engine: Engine,
-    /// Parts that the render is divided into
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub shards: u32,
-    /// The image that the parts are merged to, .exr or .png; may be given several times
-    #[arg(short, long, value_name = "FILE", required = true)]
-    pub output: Vec<PathBuf>,
-    /// Folder for the partial images, which all machines see
-    #[arg(long, value_name = "FOLDER", default_value = "parts")]
-    pub parts: PathBuf,
-    /// Folder for the job files; the working directory if not given
-    #[arg(long, value_name = "FOLDER")]
-    pub folder: Option<PathBuf>,
-    /// Processors of a part; 4 if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub cpus: Option<u32>,
-    /// The program on the machines that render
-    #[arg(long, value_name = "PROGRAM", default_value = "terrarium")]
-    pub program: String,
-    /// The container image, for Kubernetes
-    #[arg(long, value_name = "IMAGE", default_value = "terrarium:latest")]
-    pub image: String,
-    #[command(flatten)]
-    pub reading: Reading,
-    #[command(flatten)]
-    pub work: Work,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Engine {
-    Slurm,
-    /// Open Job Description, of AWS Deadline Cloud
-    Openjd,
-    Kubernetes,
-}
-
-#[derive(Debug, ClapArgs)]
-pub struct MergeArgs {
-    /// Partial images, or folders of them (files named *.shard*.exr)
-    #[arg(required = true, value_name = "PART")]
-    pub parts: Vec<PathBuf>,
-    /// The image to write, .exr or .png; `-` is standard output; may be given several times
-    #[arg(short, long, value_name = "FILE", required = true)]
-    pub output: Vec<PathBuf>,
-    /// Format of the image that goes to standard output
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
-    pub format: ImageFormat,
-    /// Make the image of the parts that are there, and restate its error
-    #[arg(long)]
-    pub allow_missing: bool,
-    /// Print only warnings and errors
-    #[arg(short, long)]
-    pub quiet: bool,
-}
-
-#[derive(Debug, ClapArgs)]
 pub struct PlanArgs {
     /// Scenes, .ron or .toml; `-` reads one from standard input
     #[arg(required = true)]
@@ -334,13 +247,6 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)
-}
-
-/// A column and a row.
-fn pixel(text: &str) -> Result<[u32; 2], String> {
-    let number = |part: &str| part.trim().parse::<u32>().ok();
-    let found = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    found.ok_or_else(|| format!("`{text}` is no pixel: 120,45"))
 }
 
 /// Seconds from a number with a unit.

@@ -6,9 +6,9 @@ mod kubernetes;
 mod openjd;
 mod slurm;
 
-use super::args::{Engine, FarmArgs};
 use super::check::load_and_report;
 use super::exit::{Failure, USAGE};
+use super::farm_args::{Engine, FarmArgs};
 use super::progress::{Reporter, duration};
 use super::report::{self, Terminal};
 use super::summary::mebibytes;

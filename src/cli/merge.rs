@@ -1,7 +1,7 @@
 //! `merge`: partial images in, the image out.
 
-use super::args::MergeArgs;
 use super::exit::{Failure, UNREADABLE, USAGE};
+use super::farm_args::MergeArgs;
 use super::progress::{duration, short};
 use super::report::Terminal;
 use super::target::{Staged, same_file, targets_of};

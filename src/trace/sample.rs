@@ -1,7 +1,7 @@
 //! What one camera sample yields.
 
 use super::Probes;
-use crate::math::Vec3;
+use crate::math::{Exact, Vec3};
 
 /// What is wanted of every sample beyond its radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +60,8 @@ impl Sample {
         self.radiance - self.caustic - self.indirect
     }
 
+    /// Whether it can be added up: beyond [`Exact::LIMIT`] it counts as infinite.
     pub fn is_finite(&self) -> bool {
-        self.radiance.is_finite()
+        self.radiance.abs().cmplt(Vec3::splat(Exact::LIMIT as f32)).all()
     }
 }

@@ -189,7 +189,7 @@ impl Lattice<'_> {
             let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
             self.tally.health.non_finite(place);
         }
-        self.radiances.push(sample.radiance);
+        self.radiances.push(if sample.is_finite() { sample.radiance } else { Vec3::NAN });
         let wants = self.tracer.wants;
         if wants.first_hit || wants.split || wants.photons {
             self.samples.push(*sample);
