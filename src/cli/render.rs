@@ -64,7 +64,8 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     let goes_on = place.frame.is_some() || (args.batch.resume && !begun);
     let whole = shards.is_none() && args.batch.crop.is_none();
     if goes_on && !args.several.again && whole && finished(args, &targets, &loaded, &plan) {
-        return Ok(already(args, terminal, &reporter));
+        already(args, terminal, &reporter);
+        return Ok(());
     }
     probe(args, &targets)?;
     if !args.quiet {
@@ -76,7 +77,10 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     let options = Options { shards, checkpoint, halt: Some(stop_on_signals()), ..options(args, began) };
     let mut rendered = match render::render(&loaded, &options, &reporter) {
         Ok(rendered) => rendered,
-        Err(RenderError::Already) => return Ok(already(args, terminal, &reporter)),
+        Err(RenderError::Already) => {
+            already(args, terminal, &reporter);
+            return Ok(());
+        }
         Err(error) => {
             reporter.finish();
             return Err(unbuildable(error, &loaded, terminal));

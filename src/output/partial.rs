@@ -86,7 +86,7 @@ pub fn read(source: impl Read + Seek + Send) -> Result<(Provenance, Vec<u32>), P
     let sums = file
         .layer_data
         .into_iter()
-        .find(|layer| layer.attributes.layer_name.as_ref().is_some_and(|name| name.to_string() == SUMS));
+        .find(|layer| layer.attributes.layer_name.as_ref().is_some_and(|name| *name == *SUMS));
     let words = sums.and_then(|layer| match layer.channel_data.list.into_iter().next()?.sample_data {
         FlatSamples::U32(words) => Some(words),
         _ => None,

@@ -8,7 +8,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 program=${TERRARIUM:-$root/target/release/terrarium}
 scene=${SCENE:-$root/scenes/terrarium.ron}
 shards=${SHARDS:-8}
-more=${MORE:---passes 16 --set image.width=320 --set image.height=180}
+more=${MORE:---passes 64 --set image.width=320 --set image.height=180}
 for needed in slurmctld slurmd sbatch munged; do
     command -v $needed >/dev/null || { echo "slurm.sh: not tried: $needed is not installed (apt install slurm-wlm munge)"; exit 0; }
 done
@@ -83,27 +83,26 @@ cd "$root"
 # shellcheck disable=SC2086
 "$program" farm "$scene" --engine slurm --shards "$shards" -o "$work/out.exr" --parts "$work/parts" \
     --folder "$work/job" --program "$program" --cpus 1 $more
-sed -i '/--mem=/d; s/--resume/--resume --checkpoint 1s/' "$work"/job/*.sh
+sed -i '/--mem=/d; s/--resume/--resume --checkpoint 300ms/' "$work"/job/*.sh
 begin=$(date +%s)
 jobs=$(sh "$work"/job/*.submit.sh)
 array=${jobs% *}
 merge=${jobs#* }
 
-# The first task that runs is killed and put back.
-victim=
-for _ in $(seq 60); do
-    victim=$(pgrep -f "$program render $scene" | head -1) && [ -n "$victim" ] && break
-    sleep 0.2
+# A task that has written a checkpoint is killed; its script puts it back into the queue.
+task=
+for _ in $(seq 300); do
+    for victim in $(pgrep -f "$program render $scene" || true); do
+        task=$(tr '\0' '\n' <"/proc/$victim/environ" 2>/dev/null | sed -n 's/^SLURM_ARRAY_TASK_ID=//p') || true
+        [ -n "$task" ] && ls "$work"/parts/*shard-000"$task"-*.checkpoint >/dev/null 2>&1 && break 2
+    done
+    task=
+    sleep 0.1
 done
-sleep 2
-task=$(tr '\0' '\n' <"/proc/$victim/environ" | sed -n 's/^SLURM_ARRAY_TASK_ID=//p')
+[ -n "$task" ] || { echo "slurm.sh: no task was seen at work"; exit 1; }
 kill -9 "$victim"
 echo "killed task $task of job $array"
-for _ in $(seq 40); do
-    if scontrol requeue "${array}_$task" 2>/dev/null; then break; fi
-    sleep 0.5
-done
-for _ in $(seq 600); do
+for _ in $(seq 300); do
     state=$(squeue -h -j "$array,$merge" -o "%i %T" 2>/dev/null || true)
     [ -z "$state" ] && break
     sleep 1

@@ -5,6 +5,9 @@ use super::{Job, Sheet, shell, shell_line, text};
 /// Seconds between the signal and the end that Slurm sets.
 const NOTICE: u32 = 60;
 
+/// Times that a part may be begun again after it was killed.
+const AGAIN: u32 = 6;
+
 pub fn sheets(job: &Job) -> Vec<Sheet> {
     let log = |what: &str| shell(&text(&job.folder.join(format!("{}-{what}.log", job.name))));
     let minutes = |seconds: u64| seconds.div_ceil(60) + 1;
@@ -25,7 +28,8 @@ pub fn sheets(job: &Job) -> Vec<Sheet> {
 #SBATCH --signal=B:USR1@{NOTICE}
 #SBATCH --output={log}
 mkdir -p {parts}
-# A signal stops the render, which leaves a checkpoint (code 6): the task goes back to the queue and goes on from it.
+# A signal stops the render, which leaves a checkpoint (code 6): the task goes back to the queue and goes on from it,
+# and so does one that was killed, some times.
 {render} &
 child=$!
 trap 'kill -USR1 \"$child\" 2>/dev/null' USR1 TERM
@@ -33,7 +37,7 @@ code=0
 wait \"$child\" || code=$?
 # The wait ends with the signal; the render a moment later.
 while kill -0 \"$child\" 2>/dev/null; do code=0; wait \"$child\" || code=$?; done
-if [ \"$code\" -eq 6 ]; then
+if [ \"$code\" -eq 6 ] || {{ [ \"$code\" -gt 128 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {AGAIN} ]; }}; then
     scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\" && exit 0
 fi
 exit \"$code\"
