@@ -24,6 +24,12 @@ fn moment(i: u64, most: u64) -> Duration {
 /// A render that would last some seconds.
 const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "150", "-q"];
 
+/// Kills of each render at most; `KILLS=200 cargo test --release --test all batch::resume::a_render_that_is_killed`
+/// for more of them.
+fn kills_at_most() -> u64 {
+    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
+}
+
 /// Killed again and again, at other moments, until it is done.
 #[test]
 fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
@@ -39,7 +45,7 @@ fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
         let whole = began.elapsed().as_millis() as u64;
         let again = [&words[..], &["-o", "killed.exr", "--checkpoint", "10ms", "--resume"]].concat();
         let mut kills = 0;
-        for i in 0..8 {
+        for i in 0..kills_at_most() {
             let mut child = begun(&lab, &again);
             let end = Instant::now() + moment(i, whole / 2 + 50);
             while Instant::now() < end && child.try_wait().expect("a child").is_none() {
@@ -51,7 +57,8 @@ fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
             let found = lab.path("killed.exr");
             if found.exists() {
                 assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "a file that is not whole");
-                break;
+                // Begun anew, to be killed at other moments.
+                std::fs::remove_file(found).expect("removed");
             }
         }
         assert!(kills > 0, "nothing was killed");
