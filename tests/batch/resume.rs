@@ -22,21 +22,21 @@ fn moment(i: u64, most: u64) -> Duration {
 }
 
 /// A render that would last some seconds.
-const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "150", "-q"];
+const WORK: [&str; 5] = ["render", "scene.ron", "--passes", "100", "-q"];
 
 /// Kills of each render at most; `KILLS=200 cargo test --release --test all batch::resume::a_render_that_is_killed`
 /// for more of them.
 fn kills_at_most() -> u64 {
-    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
+    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(5)
 }
 
 /// Killed again and again, at other moments, until it is done.
 #[test]
 fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
     for (scene, work) in [
-        (CAUSTIC, &["--passes", "60"][..]),
-        (CAUSTIC, &["--error", "6%", "--passes", "4000"]),
-        (ADAPTIVE, &["--passes", "1", "--set", "image.width=500", "--set", "image.height=400"]),
+        (CAUSTIC, &["--passes", "24"][..]),
+        (CAUSTIC, &["--error", "10%", "--passes", "4000"]),
+        (ADAPTIVE, &["--passes", "1", "--set", "image.width=320", "--set", "image.height=240"]),
     ] {
         let lab = Lab::new(scene);
         let words = [&["render", "scene.ron", "-q"], work].concat();
@@ -47,7 +47,7 @@ fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
         let mut kills = 0;
         for i in 0..kills_at_most() {
             let mut child = begun(&lab, &again);
-            let end = Instant::now() + moment(i, whole / 2 + 50);
+            let end = Instant::now() + moment(i, whole / 2 + 20);
             while Instant::now() < end && child.try_wait().expect("a child").is_none() {
                 std::thread::sleep(Duration::from_millis(1));
             }
@@ -75,7 +75,7 @@ fn a_render_that_is_stopped_leaves_a_valid_image_and_goes_on() {
     for name in ["-TERM", "-INT", "-USR1"] {
         let words = [&WORK[..], &["-o", "out.exr", "-o", "out.png", "--resume"]].concat();
         let mut child = begun(&lab, &words);
-        std::thread::sleep(Duration::from_millis(500));
+        std::thread::sleep(Duration::from_millis(300));
         let asked = Instant::now();
         signal(&child, name);
         let status = child.wait().expect("it ends");
@@ -109,7 +109,7 @@ fn a_part_that_is_there_is_not_rendered_again() {
 fn a_second_signal_ends_at_once() {
     let lab = Lab::new(CAUSTIC);
     let mut child = begun(&lab, &["render", "scene.ron", "--passes", "100000", "-q", "-o", "out.exr"]);
-    std::thread::sleep(Duration::from_millis(500));
+    std::thread::sleep(Duration::from_millis(300));
     signal(&child, "-TERM");
     signal(&child, "-TERM");
     let code = child.wait().expect("it ends").code();
@@ -131,12 +131,12 @@ fn a_checkpoint_of_another_render_is_refused_with_both_hashes() {
     for (more, reason) in [
         (&["--set", "materials.glass.ior=1.4"][..], "the scene's hash is "),
         (&["--seed", "9"], "the seed is 0 there and 9 here"),
-        (&["--passes", "300"], "the range of passes is 0..150 there and 0..300 here"),
+        (&["--passes", "300"], "the range of passes is 0..100 there and 0..300 here"),
         (&["--aov", "normal"], "layers"),
     ] {
         let mut again: Vec<&str> = words.iter().copied().filter(|word| *word != "-q").collect();
         if more[0] == "--passes" {
-            again.retain(|word| !["--passes", "150"].contains(word));
+            again.retain(|word| !["--passes", "100"].contains(word));
         }
         let said = lab.fails(2, &[&again[..], &["--resume"], more].concat());
         assert!(said.contains("out.exr.checkpoint") && said.contains(reason), "{said}");
