@@ -89,6 +89,10 @@ EFFECTS = [
     ("environment", "scenes/gallery/still_life.toml"),
     ("antialiasing", "scenes/gallery/antialiasing.ron"),
 ]
+# They call for no photons, indirect light, dispersion or environment.
+UNCALLED = ["scenes/gallery/%s" % scene for scene in (
+    "primitives.toml", "shadows.toml", "smooth_shading.toml", "textures.ron", "normal_maps.ron", "soft_shadows.ron")]
+MIDDLING = ["--set", "image.width=640", "--set", "image.height=360", "--passes", "8"]
 SMALL = ["--set", "image.width=320", "--set", "image.height=180", "--passes", "4"]
 
 
@@ -115,11 +119,11 @@ def effects(folder, _):
         print("  The price of `off` needs an older build to compare with: BEFORE=program benches/plan.py effects")
         return
     print("Scenes that call for none of what is newer than %s, in turns" % BEFORE)
-    for scene in ("scenes/yardstick/primitives.ron", "scenes/gallery/normal_maps.ron", "scenes/gallery/primitives.toml"):
+    for scene in UNCALLED:
         path = os.path.join(ROOT, scene)
         took = in_turns({
-            "now": render(path, stats, "--set", "photons=off"),
-            "before": render(path, stats, "--set", "photons=off", program=BEFORE),
+            "now": render(path, stats, *MIDDLING),
+            "before": render(path, stats, *MIDDLING, program=BEFORE),
         }, folder)
         verdict(scene + ": now / before", took["now"] / took["before"], 1.03, "less")
 
