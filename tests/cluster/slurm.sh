@@ -103,6 +103,8 @@ done
 kill -9 "$victim"
 echo "killed task $task of job $array"
 for _ in $(seq 300); do
+    # Slurm lets a task that was put back wait for two minutes.
+    scontrol update JobId="${array}_$task" StartTime=now 2>/dev/null || true
     state=$(squeue -h -j "$array,$merge" -o "%i %T" 2>/dev/null || true)
     [ -z "$state" ] && break
     sleep 1
