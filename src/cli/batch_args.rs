@@ -2,6 +2,7 @@
 
 use super::engine;
 use super::exit::{Failure, USAGE};
+use super::ranges::numbers;
 use clap::Args as ClapArgs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -60,7 +61,7 @@ impl BatchArgs {
     pub fn divided(&self) -> Result<Option<Shards>, Failure> {
         let wrong = |message: String| Failure::new(USAGE, message);
         if let (Some(list), Some(of)) = (&self.shards, self.of) {
-            let numbers = numbers(list).map_err(|error| wrong(format!("--shards {list}: {error}")))?;
+            let numbers = parts(list).map_err(|error| wrong(format!("--shards {list}: {error}")))?;
             return Ok(Some(Shards { numbers, of }));
         }
         let Some(shard) = &self.shard else {
@@ -117,28 +118,14 @@ impl BatchArgs {
     }
 }
 
-/// A list of ranges: `0-3,6,10-20:2`, rising and without repetition.
-pub fn numbers(text: &str) -> Result<Vec<u32>, String> {
-    let number = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no whole number"));
-    let mut list = Vec::new();
-    for part in text.split(',') {
-        let (range, step) = match part.split_once(':') {
-            Some((range, step)) => (range, number(step)?),
-            None => (part, 1),
-        };
-        let (first, last) = match range.split_once('-') {
-            Some((first, last)) => (number(first)?, number(last)?),
-            None => (number(range)?, number(range)?),
-        };
-        if last < first || step == 0 || last - first >= 1 << 20 {
-            return Err(format!("`{part}` is no range: `0-7` or `0-7:2`"));
-        }
-        list.extend((first..=last).step_by(step as usize));
-    }
+/// Parts, rising; none may be there twice.
+fn parts(text: &str) -> Result<Vec<u32>, String> {
+    let mut list = numbers(text, 0, 1 << 20)?;
     list.sort_unstable();
-    let all = list.len();
-    list.dedup();
-    if list.len() < all { Err("a number is there twice".to_owned()) } else { Ok(list) }
+    match list.windows(2).find(|two| two[0] == two[1]) {
+        Some(two) => Err(format!("{} is there twice", two[0])),
+        None => Ok(list),
+    }
 }
 
 #[cfg(test)]
@@ -146,12 +133,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_of_numbers_are_those_of_engines() {
-        assert_eq!(numbers("0-0"), Ok(vec![0]));
-        assert_eq!(numbers("1-3,5,7-12:2"), Ok(vec![1, 2, 3, 5, 7, 9, 11]));
-        for wrong in ["", "a", "3-1", "1-3:0", "1,1", "0-4294967295", "-1"] {
-            assert!(numbers(wrong).is_err(), "{wrong}");
-        }
+    fn parts_are_in_order_and_there_once() {
+        assert_eq!(parts("6,0-2"), Ok(vec![0, 1, 2, 6]));
+        assert!(parts("0-3,2").is_err_and(|error| error.contains("2 is there twice")));
     }
 
     #[test]

@@ -15,7 +15,8 @@ use super::summary::mebibytes;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::output::atomic;
-use terrarium::render::{self, Options, Planned, Shards};
+use terrarium::plan::Plan;
+use terrarium::render::{self, By, Options, Planned, RenderError, Shards};
 
 /// What is asked of an engine.
 struct Job {
@@ -74,7 +75,7 @@ pub fn run(args: &FarmArgs, terminal: &Terminal) -> Result<(), Failure> {
     terminal.say(&format!(
         "{} shards of about {} on {} threads as this machine's, {} each",
         job.shards,
-        duration(planned.seconds / f64::from(job.shards)),
+        duration(planned.seconds),
         rayon::current_num_threads(),
         planned.peak_bytes.map_or("memory unknown".to_owned(), mebibytes)
     ));
@@ -90,12 +91,13 @@ fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> 
     let planned = render::plan(&loaded, &options, &reporter)?;
     let threads = rayon::current_num_threads() as f64;
     let cpus = args.cpus.unwrap_or(4);
-    // Stages before the first tile run in every shard.
-    let traced: f64 = planned.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
-    let shard =
-        (planned.seconds - traced + traced / f64::from(args.shards)) * threads / f64::from(cpus).min(threads);
+    let shard = planned.seconds * threads / f64::from(cpus).min(threads);
     let peak = planned.peak_bytes.unwrap_or(0) as f64;
     let sums = planned.memory.film_bytes as f64;
+    // A shard of tiles has its own pixels alone.
+    let plan = Plan::new(&loaded.scene, &options.request()).map_err(RenderError::from)?;
+    let parts = options.shards.as_ref().map_or(1, |s| if By::of(s, &plan) == By::Tiles { s.of } else { 1 });
+    let whole = sums * f64::from(parts);
     let stem = args.scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
     let name: String =
         stem.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
@@ -116,7 +118,7 @@ fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> 
             seconds: ((SPARE_TIME * shard) as u64).max(LEAST_SECONDS),
             // The picture and its sums are held twice as they are written.
             bytes: ((SPARE_MEMORY * (peak + 2.0 * sums)) as u64).max(LEAST_BYTES),
-            merge_bytes: ((SPARE_MEMORY * 6.0 * sums) as u64).max(LEAST_BYTES),
+            merge_bytes: ((SPARE_MEMORY * 6.0 * whole) as u64).max(LEAST_BYTES),
             image: args.image.clone(),
         },
         planned,

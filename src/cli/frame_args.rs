@@ -1,5 +1,6 @@
 //! The frames that are asked for, as typed.
 
+use super::ranges::numbers;
 use clap::Args as ClapArgs;
 
 /// Which frames are rendered.
@@ -29,28 +30,7 @@ impl std::str::FromStr for Frames {
 
     /// `7`, `1-48`, `1-48:2`, and several of these with commas between.
     fn from_str(text: &str) -> Result<Frames, String> {
-        let mut frames = Vec::new();
-        for part in text.split(',') {
-            let number = |text: &str| {
-                let found = text.trim().parse::<u32>().ok().filter(|n| *n >= 1);
-                found.ok_or_else(|| format!("`{part}` is neither a frame (7) nor frames (1-48, 1-48:2)"))
-            };
-            let (range, step) = match part.split_once(':') {
-                Some((range, step)) => (range, number(step)?),
-                None => (part, 1),
-            };
-            let (first, last) = match range.split_once('-') {
-                Some((first, last)) => (number(first)?, number(last)?),
-                None => (number(range)?, number(range)?),
-            };
-            if first > last {
-                return Err(format!("`{part}`: the first frame is behind the last"));
-            }
-            if frames.len() + ((last - first) / step) as usize >= MOST {
-                return Err(format!("more than {MOST} frames"));
-            }
-            frames.extend((first..=last).step_by(step as usize));
-        }
+        let mut frames = numbers(text, 1, MOST)?;
         let mut seen = std::collections::HashSet::new();
         frames.retain(|frame| seen.insert(*frame));
         Ok(Frames(frames))

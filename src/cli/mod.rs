@@ -23,6 +23,7 @@ mod measure;
 mod merge;
 mod plan;
 mod progress;
+mod ranges;
 mod render;
 mod replay;
 mod replay_args;

@@ -69,7 +69,7 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     }
     probe(args, &targets)?;
     if !args.quiet {
-        terminal.say(&announcement(args, &loaded.scene, &plan));
+        terminal.say(&announcement(args, &loaded.scene, &plan, shards.as_ref()));
     }
 
     tell_of_checkpoint(checkpoint.as_ref(), terminal);
@@ -125,6 +125,7 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     rendered.warnings.iter().for_each(|warning| terminal.warning(warning));
     let written = worst(&written);
     let summary = Summary {
+        part: options.shards.is_some(),
         v: machine::VERSION,
         version: env!("CARGO_PKG_VERSION"),
         frame: place.frame,
@@ -240,7 +241,7 @@ fn already(args: &RenderArgs, terminal: &Terminal, reporter: &Reporter) {
 }
 
 /// The first line: what is rendered, how large, until when, with how many threads.
-fn announcement(args: &RenderArgs, scene: &Scene, plan: &Plan) -> String {
+fn announcement(args: &RenderArgs, scene: &Scene, plan: &Plan, shards: Option<&Shards>) -> String {
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let until = until(plan);
     let frame = args.reading.frame.map_or(String::new(), |frame| format!(", frame {frame}"));
@@ -251,6 +252,9 @@ fn announcement(args: &RenderArgs, scene: &Scene, plan: &Plan) -> String {
         scene.image.height,
         plural(rayon::current_num_threads(), "thread")
     );
+    if let Some(Shards { numbers, of }) = shards {
+        line += &format!(", of which shard {} of {of}", render::shard_list(numbers));
+    }
     if !plan.overrides.is_empty() {
         line += &format!(", {}", plan.overrides);
     }

@@ -11,6 +11,9 @@ use terrarium::trace::Rays;
 /// Everything that `--stats` writes.
 #[derive(Debug, Serialize)]
 pub struct Summary<'a> {
+    /// Whether it is of a part, whose error only the whole tells.
+    #[serde(skip)]
+    pub part: bool,
     /// Of this format.
     pub v: u32,
     pub version: &'static str,
@@ -51,7 +54,7 @@ impl Summary<'_> {
             let predicted = duration(self.stats.predicted_seconds);
             terminal.say(&format!("of which: {} (predicted: {predicted} in all)", prices.join(", ")));
         }
-        accuracy(self.stats).iter().for_each(|line| terminal.say(line));
+        accuracy(self.stats, self.part).iter().for_each(|line| terminal.say(line));
         let rays = rays(&self.stats.rays);
         if !rays.is_empty() {
             terminal.say(&format!("rays: {rays}"));
@@ -91,10 +94,12 @@ impl Summary<'_> {
 }
 
 /// How far the picture is from the truth, where that comes from, and what less of it would cost.
-fn accuracy(stats: &Stats) -> Vec<String> {
+fn accuracy(stats: &Stats, part: bool) -> Vec<String> {
     let percent = |share: f64| format!("{} %", significant(100.0 * share));
     let Some(a) = &stats.accuracy else {
-        let why = if stats.passes < 2 {
+        let why = if part {
+            "of a part: `terrarium merge` tells that of the image"
+        } else if stats.passes < 2 {
             "as one pass tells nothing of it (--passes 2 or more)"
         } else {
             "as the picture is black"

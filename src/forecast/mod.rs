@@ -8,7 +8,7 @@
 pub mod memory;
 mod pilot;
 
-use crate::trace::{Part, Rays, Spent, Tracer};
+use crate::trace::{Part, Rays, Spent};
 pub use pilot::Pace;
 use serde::Serialize;
 
@@ -56,10 +56,9 @@ impl PhotonSeconds {
 }
 
 impl Cost {
-    /// Of so many passes, where the photons of each but the first take `photons`.
-    pub fn forecast(pace: &Pace, tracer: &Tracer, photons: PhotonSeconds, passes: u32) -> Cost {
-        let camera = &tracer.world.camera;
-        let pixels = f64::from(camera.width) * f64::from(camera.height) * f64::from(passes);
+    /// Of so many passes over `pixels` pixels, where the photons of each but the first take `photons`.
+    pub fn forecast(pace: &Pace, pixels: f64, photons: PhotonSeconds, passes: u32) -> Cost {
+        let pixels = pixels * f64::from(passes);
         let later = photons.times(f64::from(passes.saturating_sub(1)));
         let count = |of: f64| (of * pixels).round() as u64;
         let threads = rayon::current_num_threads() as f64;

@@ -33,15 +33,27 @@ pub fn write(
     provenance: &Provenance,
 ) -> Result<Written, OutputError> {
     let (layer, written) = picture(image, provenance)?;
-    let mut file = exr::image::Image::from_layer(layer);
-    describe_picture(image, &mut file.attributes);
+    save(sink, image, [layer])?;
+    Ok(written)
+}
+
+/// Writes the parts of a file that shows an image.
+pub(super) fn save<const N: usize>(
+    sink: impl Write + Seek,
+    image: &Image,
+    parts: [Layer<AnyChannels<FlatSamples>>; N],
+) -> Result<(), OutputError> {
+    let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions(shown(image)));
+    attributes.chromaticities = Some(REC_709);
+    attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
+    let file = exr::image::Image::from_layers(attributes, SmallVec::from_iter(parts));
     let writer = file.write();
     if rayon::current_num_threads() == 1 {
         writer.non_parallel().to_buffered(sink)?;
     } else {
         writer.to_buffered(sink)?;
     }
-    Ok(written)
+    Ok(())
 }
 
 /// The part of the file that shows the picture.
@@ -80,13 +92,6 @@ pub(super) fn picture(
 /// The size of the picture that the image is, or is a part of.
 fn shown(image: &Image) -> Vec2<usize> {
     image.within.map_or(Vec2(image.width, image.height), |whole| Vec2(whole.width, whole.height))
-}
-
-/// What holds for the whole file.
-pub(super) fn describe_picture(image: &Image, attributes: &mut ImageAttributes) {
-    attributes.display_window = IntegerBounds::from_dimensions(shown(image));
-    attributes.chromaticities = Some(REC_709);
-    attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
 }
 
 /// The channel's name in the file.

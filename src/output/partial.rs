@@ -4,13 +4,13 @@
 //! image is there. The second, `sums`, has one channel of unsigned 32-bit integers, `word`: the sums, row after
 //! row, the last row filled up with zeros. They are not compressed: most of their bits are chance.
 
-use super::exr::{ATTRIBUTE, describe_picture, picture, text};
+use super::exr::{ATTRIBUTE, picture, save, text};
 use super::{Image, OutputError, Provenance};
 use crate::math::random::combine;
 use exr::image::{Blocks, Encoding};
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, LineOrder, ReadChannels, ReadLayers, SmallVec, WritableImage, read as reading,
+    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Layer, LayerAttributes, LineOrder,
+    ReadChannels, ReadLayers, SmallVec, read as reading,
 };
 use std::io::{BufReader, Read, Seek, Write};
 
@@ -51,16 +51,7 @@ pub fn write(
     };
     let channels = SmallVec::from_iter([AnyChannel::new("word", FlatSamples::U32(words))]);
     let sums = Layer::new((ROW, rows), LayerAttributes::named(SUMS), encoding, AnyChannels::sort(channels));
-    let whole = IntegerBounds::from_dimensions((1, 1));
-    let mut file = exr::image::Image::from_layers(ImageAttributes::new(whole), vec![first, sums]);
-    describe_picture(image, &mut file.attributes);
-    let writer = file.write();
-    if rayon::current_num_threads() == 1 {
-        writer.non_parallel().to_buffered(sink)?;
-    } else {
-        writer.to_buffered(sink)?;
-    }
-    Ok(())
+    save(sink, image, [first, sums])
 }
 
 /// The provenance of a partial image, and its sums with the zeros at their end.

@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::photons::PassMaps;
 use super::prepare::Prepared;
 use super::prices::first_photons;
+use super::share::Work;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
 use crate::plan::{Antialiasing, Plan, Until};
@@ -45,18 +46,22 @@ impl Planned {
         options: &Options,
         clock: &Clock,
         cost: Cost,
-        passes: u32,
+        work: &Work,
     ) -> Planned {
         let Prepared { plan, world, wants, stages, .. } = ready;
         let mut photons = stages.stats(world);
         stages.count(&mut photons, &mut Default::default(), first);
-        let pixels = u64::from(world.camera.width) * u64::from(world.camera.height);
+        let (passes, pixels) = (work.passes, work.pixels as u64);
         let film = (pixels as f64 * trace::Tile::bytes_per_pixel(trace::layers(wants))) as u64;
         let several = passes > 1 && !stages.one_map();
         let later = memory::Later {
             film,
             photons: if several { ready.photon_bytes() } else { 0 },
-            tiles: kept_by_tiles(plan, options, cost.samples as f64 / (pixels * u64::from(passes)) as f64),
+            tiles: kept_by_tiles(
+                plan,
+                options,
+                cost.samples as f64 / (pixels * u64::from(passes)).max(1) as f64,
+            ),
             image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
         };
         let mut prices = cost.bill;

@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::photons::{PassMaps, PassStages};
+use super::share::Work;
 use super::{Options, Planned, Progress, RenderError, room};
 use crate::build::{self, Built, World};
 use crate::description::Loaded;
@@ -94,7 +95,8 @@ impl Prepared {
         progress: &dyn Progress,
         clock: &mut Clock,
     ) -> Planned {
-        let guess = self.plan.passes.min(if self.plan.until.is_any() { GUESS } else { u32::MAX });
+        let work = Work::of(options, &self.plan, &self.world.camera);
+        let guess = work.passes.min(if self.plan.until.is_any() { GUESS } else { u32::MAX });
         // Radii shrink; this pass's is the typical one.
         let typical = self.plan.first_pass + (TYPICAL * f64::from(guess)) as u32;
         let tracer = Tracer {
@@ -106,11 +108,11 @@ impl Prepared {
         let threads = rayon::current_num_threads() as f64;
         let later = if self.stages.one_map() { PhotonSeconds::default() } else { first.seconds() };
         let photons = later.times(threads);
-        let cost = |passes| Cost::forecast(&pace, &tracer, photons, passes);
+        let cost = |passes| Cost::forecast(&pace, work.pixels, photons, passes);
         let spent = options.began.map_or(clock.sum(), |began| began.elapsed().as_secs_f64());
-        let passes = self.plan.until.passes(self.plan.passes, spent, cost(1).seconds, cost(2).seconds);
+        let passes = self.plan.until.passes(work.passes, spent, cost(1).seconds, cost(2).seconds);
         clock.lap("forecast");
-        let planned = Planned::new(self, first, options, clock, cost(passes), passes);
+        let planned = Planned::new(self, first, options, clock, cost(passes), &Work { passes, ..work });
         progress.planned(&planned);
         planned
     }

@@ -21,6 +21,7 @@ pub(super) fn check(options: &Options, width: u32, height: u32) -> Result<(), Re
     let Some(limit) = options.memory.or_else(memory::machine) else { return Ok(()) };
     let [sums, layers] = bytes_per_pixel(options, width, height);
     // At most 2^16 a side, checked with the scene: no product overflows.
+    let (width, height) = options.crop.map_or((width, height), |crop| (crop.width(), crop.height()));
     let bytes = u64::from(width) * u64::from(height) * (sums + layers);
     if bytes <= limit {
         return Ok(());

@@ -1,6 +1,8 @@
 //! Which part of an image's work is done here: some of its passes, or some of its tiles.
 
-use super::RenderError;
+use super::{Options, RenderError};
+use crate::film::Window;
+use crate::optics::Camera;
 use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -75,6 +77,32 @@ impl Shards {
     /// end of a picture may take longer than the other.
     pub fn has_tile(&self, tile: usize) -> bool {
         self.numbers.binary_search(&((tile % self.of as usize) as u32)).is_ok()
+    }
+}
+
+/// How much is traced here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Work {
+    pub passes: u32,
+    /// Of each pass.
+    pub pixels: f64,
+}
+
+impl Work {
+    pub fn of(options: &Options, plan: &Plan, camera: &Camera) -> Work {
+        let window = options.crop.unwrap_or(Window::all(camera.width, camera.height));
+        let pixels = window.pixels() as f64;
+        match &options.shards {
+            Some(shards) if By::of(shards, plan) == By::Tiles => {
+                let share = shards.numbers.len() as f64 / f64::from(shards.of);
+                Work { passes: plan.passes, pixels: share * pixels }
+            }
+            Some(shards) => {
+                let passes = shards.passes(plan).iter().map(|stretch| stretch.end - stretch.start).sum();
+                Work { passes, pixels }
+            }
+            None => Work { passes: plan.passes, pixels },
+        }
     }
 }
 
