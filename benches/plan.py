@@ -1,7 +1,8 @@
 """What the plan promises against what a render takes, and the price of each effect.
 
     benches/plan.py forecast [scene...]   predicted time and memory of every scene of the repository
-    benches/plan.py effects               seconds with an effect, without it, and without a need for it
+    benches/plan.py effects               seconds with an effect, and without it
+    benches/plan.py off                   seconds where no effect is called for, beside an older build
 
 SIZE=1 renders the scenes as they are; the default, 0.5, halves their sides and passes. BEFORE=program
 names an older build: the scenes that do not call for an effect are rendered by both, in turns.
@@ -115,9 +116,13 @@ def effects(folder, _):
         }, folder)
         print("  %-16s %-36s on %7.3f  off %7.3f  price %+6.1f %%" % (
             effect, scene, took["on"], took["off"], 100 * (took["on"] / took["off"] - 1)))
+
+
+def off(folder, _):
     if not BEFORE:
-        print("  The price of `off` needs an older build to compare with: BEFORE=program benches/plan.py effects")
+        print("The price of `off` needs an older build to compare with: BEFORE=program benches/plan.py off")
         return
+    stats = os.path.join(folder, "stats.json")
     print("Scenes that call for none of what is newer than %s, in turns" % BEFORE)
     for scene in UNCALLED:
         path = os.path.join(ROOT, scene)
@@ -129,10 +134,10 @@ def effects(folder, _):
 
 
 def main():
-    wanted = sys.argv[1:2] or ["forecast", "effects"]
+    wanted = sys.argv[1:2] or ["forecast", "effects", "off"]
     with tempfile.TemporaryDirectory() as folder:
         for name in wanted:
-            {"forecast": forecast, "effects": effects}[name](folder, sys.argv[2:])
+            {"forecast": forecast, "effects": effects, "off": off}[name](folder, sys.argv[2:])
             print(flush=True)
 
 

@@ -2,7 +2,7 @@
 
 use super::world::{Geometry, Hit, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
-use crate::optics::{LocalSurface, MaterialId};
+use crate::optics::{LocalSurface, MaterialId, TriangleMesh};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -68,16 +68,28 @@ impl World {
             }
             Geometry::Mesh(mesh) => {
                 let m = &mesh.surface;
-                let local = m.surface(hit.primitive, hit.b);
-                let lifted = (!m.normals.is_empty()).then(|| {
-                    let front = placement.normal(local.ng).dot(ray.dir) < 0.0;
-                    m.shadow_terminator_point(hit.primitive, hit.b, front)
-                });
                 let part = m.part(hit.primitive) as usize;
+                let (local, lifted) = mesh_surface(m, ray, hit, placement);
                 placed(ray, hit, placement, &local, binding[part.min(binding.len() - 1)], lifted)
             }
         }
     }
+}
+
+/// A mesh's surface, and where its shadow rays start if not there.
+#[inline(never)]
+fn mesh_surface(
+    mesh: &TriangleMesh,
+    ray: &Ray,
+    hit: &Hit,
+    placement: &Placement,
+) -> (LocalSurface, Option<DVec3>) {
+    let facet = mesh.facet(hit.primitive, hit.b);
+    let lifted = (!mesh.normals.is_empty()).then(|| {
+        let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
+        facet.shadow_terminator_point(front)
+    });
+    (facet.surface(), lifted)
 }
 
 /// `lifted`: where shadow rays start, in object space.

@@ -13,7 +13,7 @@ const UNITS: i32 = 60;
 pub struct Exact([i128; 3]);
 
 impl Exact {
-    /// The largest term, 2⁴⁵ ≈ 3.5e13: 2²² of them fit.
+    /// The largest term, 2⁴⁵ ≈ 3.5e13: 2²¹ of them fit.
     pub const LIMIT: f64 = (1u64 << 45) as f64;
 
     /// 32-bit words of one sum.
@@ -22,9 +22,20 @@ impl Exact {
     /// Adds a term; what is beyond the limit counts as the limit, NaN as 0.
     #[inline]
     pub fn add(&mut self, term: DVec3) {
-        for (sum, t) in self.0.iter_mut().zip(term.to_array()) {
-            *sum = sum.saturating_add(units(t));
+        if !term.abs().cmplt(DVec3::splat(NEAR)).all() {
+            return self.add_far(term);
         }
+        // No number of such terms takes a sum from [`FULL`] over the edge.
+        for (sum, t) in self.0.iter_mut().zip(term.to_array()) {
+            *sum = sum.wrapping_add(near_units(t));
+        }
+    }
+
+    /// The same of any term; of one that is near, with the same result.
+    #[cold]
+    #[inline(never)]
+    fn add_far(&mut self, term: DVec3) {
+        self.join(&Exact(term.to_array().map(units)));
     }
 
     /// The sum, rounded at most twice.
@@ -41,9 +52,20 @@ impl Exact {
         DVec3::from_array(self.0.map(one))
     }
 
+    /// The sum, up to a unit and rounding: faster for those between 0 and 16.
+    #[inline]
+    pub fn about(&self) -> DVec3 {
+        const HALF: f64 = 2.0 / ONE;
+        if self.0.iter().all(|sum| sum >> 64 == 0) {
+            return DVec3::from_array(self.0.map(|sum| (sum as u64 >> 1) as i64 as f64 * HALF));
+        }
+        self.value()
+    }
+
     /// The sum of both sums' terms.
     pub fn join(&mut self, other: &Exact) {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, more)| *sum = sum.saturating_add(more));
+        let one = |sum: i128, more: i128| sum.saturating_add(more).clamp(-FULL, FULL);
+        self.0.iter_mut().zip(other.0).for_each(|(sum, more)| *sum = one(*sum, more));
     }
 
     pub fn to_words(self) -> [u32; Self::WORDS] {
@@ -57,14 +79,26 @@ impl Exact {
     }
 }
 
-/// In two 64-bit parts: twice as fast as the conversion to 128 bits.
+const ONE: f64 = (1u64 << UNITS) as f64;
+
+/// Terms below it have units of 64 bits.
+const NEAR: f64 = (1u64 << (63 - UNITS)) as f64;
+
+/// Sums stop there.
+const FULL: i128 = 1 << 126;
+
+/// Of a term within ±[`NEAR`].
 #[inline]
+fn near_units(term: f64) -> i128 {
+    i128::from((term * ONE) as i64)
+}
+
+/// In two 64-bit parts: twice as fast as the conversion to 128 bits.
 fn units(term: f64) -> i128 {
-    const ONE: f64 = (1u64 << UNITS) as f64;
+    // NaN becomes 0 in the conversions, which truncate.
     let term = term.clamp(-Exact::LIMIT, Exact::LIMIT);
-    let whole = term.trunc();
-    // NaN becomes 0 in the conversions.
-    (i128::from(whole as i64) << UNITS) + i128::from(((term - whole) * ONE) as i64)
+    let whole = term as i64;
+    (i128::from(whole) << UNITS) + i128::from(((term - whole as f64) * ONE) as i64)
 }
 
 #[cfg(test)]
@@ -92,12 +126,28 @@ mod tests {
         parts.join(&sum(terms.iter().step_by(2)));
         assert_eq!(parts, whole);
         assert_eq!(Exact::from_words(whole.to_words()), whole);
+        for term in &terms {
+            let one = sum(std::iter::once(term));
+            assert!((one.about() - one.value()).abs().max_element() < 1.8e-18, "{term}");
+        }
         let plain: DVec3 = terms.iter().sum();
         assert!(
             (whole.value() - plain).abs().max_element() < 1e-12 * libm::exp2(29.0) * 999.0,
             "{} {plain}",
             whole.value()
         );
+    }
+
+    #[test]
+    fn both_ways_to_units_agree() {
+        for i in 0..99_999u64 {
+            let t = (unit(mix(i)) - 0.5) * 2.0 * NEAR * libm::exp2(-((mix(i + 7777) % 60) as f64));
+            assert_eq!(near_units(t), units(t), "{t:e}");
+            let (mut near, mut far) = (Exact::default(), Exact::default());
+            near.add(DVec3::splat(t));
+            far.add_far(DVec3::splat(t));
+            assert_eq!(near, far);
+        }
     }
 
     #[test]

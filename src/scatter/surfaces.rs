@@ -122,7 +122,7 @@ impl Source {
         // What the choice has left of the first value is uniform again.
         let rest = ((at - below) / (cumulative[i] - below)).clamp(0.0, 1.0 - f64::EPSILON);
         let b = sampling::triangle([rest, u[1]]).map(|b| b as f32);
-        let local = mesh.surface.surface(triangles[i], b);
+        let local = mesh.surface.facet(triangles[i], b).surface();
         let binding = &world.bindings[instance.binding as usize];
         let part = mesh.surface.part(triangles[i]) as usize;
         let material = material(world, binding[part.min(binding.len() - 1)]);

@@ -127,6 +127,9 @@ impl Tracer<'_> {
                 (dir, 0.5 * (pdf + highlight.pdf(dir)))
             }
         };
+        if dir.dot(shading.ns) <= 0.0 {
+            return None;
+        }
         let ray = Ray { origin: p, dir };
         let hit = self.world.nearest_of(index, &ray, f64::INFINITY).or_else(|| {
             // Rounding leads the ray past a sphere that is very small for its distance.

@@ -35,9 +35,20 @@ impl Probes {
     /// Whether a pixel is one.
     #[inline]
     pub fn is_probe(&self, x: u32, y: u32) -> bool {
-        let (cx, cy) = (x / self.stride, y / self.stride);
-        let place = (combine(mix(u64::from(cx)), u64::from(cy)) >> 32) as u32 % (self.stride * self.stride);
-        (x % self.stride, y % self.stride) == (place % self.stride, place / self.stride)
+        self.of_square(x / self.stride, y / self.stride) == [x, y]
+    }
+
+    /// The pixel that is the probe of a square.
+    #[inline]
+    fn of_square(&self, column: u32, row: u32) -> [u32; 2] {
+        let place =
+            (combine(mix(u64::from(column)), u64::from(row)) >> 32) as u32 % (self.stride * self.stride);
+        [column * self.stride + place % self.stride, row * self.stride + place / self.stride]
+    }
+
+    /// For pixels that are asked for row by row.
+    pub(super) fn scan(self) -> Scan {
+        Scan { probes: self, square: 0..0, row: 0, at: None }
     }
 
     /// The slot of a pixel's square within a rectangle of pixels that begins at `(x0, y0)` and is `width`
@@ -51,6 +62,31 @@ impl Probes {
     /// Squares that a stretch of pixels touches.
     pub(super) fn squares(&self, start: u32, length: u32) -> u32 {
         (start + length - 1) / self.stride - start / self.stride + 1
+    }
+}
+
+/// Whether pixels are probes, told with one look a square's row.
+#[derive(Clone, Debug)]
+pub(super) struct Scan {
+    probes: Probes,
+    /// The stretch of a row that was looked at, and the probe in it.
+    square: std::ops::Range<u32>,
+    row: u32,
+    at: Option<u32>,
+}
+
+impl Scan {
+    #[inline]
+    pub fn is_probe(&mut self, x: u32, y: u32) -> bool {
+        if y != self.row || !self.square.contains(&x) {
+            let stride = self.probes.stride;
+            let column = x / stride;
+            let [px, py] = self.probes.of_square(column, y / stride);
+            self.square = column * stride..(column + 1) * stride;
+            self.row = y;
+            self.at = (py == y).then_some(px);
+        }
+        self.at == Some(x)
     }
 }
 
@@ -271,6 +307,10 @@ mod tests {
             for (cx, cy) in (0..width / s).flat_map(|cx| (0..height / s).map(move |cy| (cx, cy))) {
                 let square = (0..s).flat_map(|dy| (0..s).map(move |dx| (cx * s + dx, cy * s + dy)));
                 assert_eq!(square.filter(|&(x, y)| probes.is_probe(x, y)).count(), 1);
+            }
+            let mut scan = probes.scan();
+            for (x, y) in (0..height).flat_map(|y| (3..width).map(move |x| (x, y))) {
+                assert_eq!(scan.is_probe(x, y), probes.is_probe(x, y), "{x} {y}");
             }
         }
     }

@@ -122,6 +122,8 @@ pub struct Tile {
     /// One a square; empty where a square's probe is another tile's.
     probes: Vec<Probe>,
     placed: Option<Probes>,
+    /// Whether anything is kept beyond the picture and its error.
+    layered: bool,
 }
 
 impl Tile {
@@ -154,6 +156,7 @@ impl Tile {
             bias: vec![(Exact::default(), 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
+            layered: Layers { probes: None, parts: Parts::Growing, ..layers } != Layers::default(),
         }
     }
 
@@ -180,15 +183,21 @@ impl Tile {
 
     /// Adds a pass's value to a pixel of the tile, given in image coordinates.
     pub fn add(&mut self, x: u32, y: u32, value: &PixelValue) {
+        let probe = self.placed.is_some_and(|placed| placed.is_probe(x, y));
+        self.add_as(probe, x, y, value);
+    }
+
+    /// The same, where it is known whether the pixel is a probe.
+    pub(super) fn add_as(&mut self, probe: bool, x: u32, y: u32, value: &PixelValue) {
         let i = self.index(x, y);
         let before = f64::from(self.passes[i]);
         // Welford 1962: M₂ += (x − old mean)·(x − new mean) = (x − old mean)²·n/(n + 1).
-        let off =
-            if before == 0.0 { DVec3::ZERO } else { value.radiance - self.radiance[i].value() / before };
+        let off = if before == 0.0 {
+            DVec3::ZERO
+        } else {
+            value.radiance - self.radiance[i].about() * (1.0 / before)
+        };
         let square = off * off * (before / (before + 1.0));
-        if let Some(squares) = self.squares.get_mut(i) {
-            *squares += square;
-        }
         if let Some(spread) = self.spread.get_mut(i) {
             spread.squares += square.as_vec3();
             spread.brightest = spread.brightest.max(value.radiance.dot(LUMINANCE) as f32);
@@ -196,9 +205,20 @@ impl Tile {
         self.radiance[i].add(value.radiance);
         self.passes[i] += 1;
         self.samples[i] = self.samples[i].saturating_add(value.samples);
-        if let Some(placed) = self.placed.filter(|placed| placed.is_probe(x, y)) {
+        if let Some(placed) = self.placed.filter(|_| probe) {
             let slot = placed.slot([x, y], [self.x, self.y], self.width);
             self.probes[slot].add(x, y, value, self.parts.of(self.pass));
+        }
+        if self.layered {
+            self.add_layers(i, before == 0.0, square, value);
+        }
+    }
+
+    /// Adds to what is kept beyond the picture and its error; apart, as most renders do without.
+    #[inline(never)]
+    fn add_layers(&mut self, i: usize, first: bool, square: DVec3, value: &PixelValue) {
+        if let Some(squares) = self.squares.get_mut(i) {
+            *squares += square;
         }
         if let (Some((sum, looked)), Some([caustic, indirect])) = (self.bias.get_mut(i), value.bias) {
             sum.add(caustic + indirect);
@@ -213,17 +233,17 @@ impl Tile {
         }
         if let Some(photons) = self.photons.get_mut(i) {
             photons.density.add(DVec3::X * value.photon_density);
-            if before == 0.0 {
+            if first {
                 photons.dots = value.photons;
             }
         }
-        if let Some(first) = self.first.get_mut(i) {
-            first.albedo.add(value.albedo);
-            first.normal.add(value.normal);
-            first.position.add(value.position);
-            first.depth.add(DVec3::X * value.depth);
-            if before == 0.0 {
-                first.object = value.object;
+        if let Some(sums) = self.first.get_mut(i) {
+            sums.albedo.add(value.albedo);
+            sums.normal.add(value.normal);
+            sums.position.add(value.position);
+            sums.depth.add(DVec3::X * value.depth);
+            if first {
+                sums.object = value.object;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Surfaces of meshes against closed forms, and rays that leave them.
 
 use super::*;
+use crate::math::DVec2;
 use crate::math::Ray;
 use crate::math::random::{Counter, Stage};
 use crate::math::sampling;
@@ -66,7 +67,7 @@ fn rays_that_leave_a_triangle_do_not_meet_it_again_in_single_precision() {
         let corners = [place, place + along, place + along * slide + across];
         let mesh = triangle(corners.map(|c| c.as_vec3().to_array()));
         let [b0, b1, b2] = sampling::triangle(counter.pair()).map(|b| b as f32);
-        let at = mesh.surface(0, [b0, b1, b2]);
+        let at = mesh.facet(0, [b0, b1, b2]).surface();
         let (e1, e2) = (mesh.corners(0)[1] - mesh.corners(0)[0], mesh.corners(0)[2] - mesh.corners(0)[0]);
         if e1.cross(e2).length() < 1e-9 * e1.length() * e2.length() {
             continue;
@@ -87,7 +88,7 @@ fn points_are_in_the_plane_of_their_triangle_and_normals_on_its_side() {
     let mut counter = Counter::new(42, Stage::Test, 0);
     for _ in 0..1000 {
         let b = sampling::triangle(counter.pair()).map(|b| b as f32);
-        let at = mesh.surface(0, b);
+        let at = mesh.facet(0, b).surface();
         assert_eq!(at.p.x, 1e3);
         assert_eq!(at.ng, DVec3::X);
         assert!(at.ns.dot(at.ng) > 0.9 && (at.ns.length() - 1.0).abs() < 1e-15);
@@ -99,32 +100,32 @@ fn missing_normals_fall_back_to_the_geometric_one() {
     for bad in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
         let mut mesh = triangle([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         mesh.normals = vec![bad; 3];
-        let at = mesh.surface(0, [0.2, 0.3, 0.5]);
+        let at = mesh.facet(0, [0.2, 0.3, 0.5]).surface();
         assert_eq!(at.ns, DVec3::Z, "{bad}");
-        assert_eq!(mesh.shadow_terminator_point(0, [0.2, 0.3, 0.5], true), at.p);
+        assert_eq!(mesh.facet(0, [0.2, 0.3, 0.5]).shadow_terminator_point(true), at.p);
     }
     // Opposite normals cancel in the middle.
     let mut mesh = triangle([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     mesh.normals = vec![Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Z];
-    assert_eq!(mesh.surface(0, [0.5, 0.25, 0.25]).ns, DVec3::Z);
+    assert_eq!(mesh.facet(0, [0.5, 0.25, 0.25]).surface().ns, DVec3::Z);
 }
 
 #[test]
 fn derivatives_follow_the_texture_coordinates_mirrored_and_degenerate_ones_too() {
     let mut mesh = triangle([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]);
     mesh.uvs = vec![Vec2::new(0.25, 0.5), Vec2::new(0.75, 0.5), Vec2::new(0.25, 1.5)];
-    let at = mesh.surface(0, [0.5, 0.25, 0.25]);
+    let at = mesh.facet(0, [0.5, 0.25, 0.25]).surface();
     assert_eq!((at.uv, at.dpdu, at.dpdv), (DVec2::new(0.375, 0.75), DVec3::X * 4.0, DVec3::Y * 3.0));
     mesh.uvs = vec![Vec2::new(0.0, 0.0), Vec2::new(-1.0, 0.0), Vec2::new(0.0, 1.0)];
-    let at = mesh.surface(0, [0.5, 0.25, 0.25]);
+    let at = mesh.facet(0, [0.5, 0.25, 0.25]).surface();
     assert_eq!((at.dpdu, at.dpdv), (DVec3::X * -2.0, DVec3::Y * 3.0));
     for line in [Vec2::ZERO, Vec2::ONE] {
         mesh.uvs = vec![line * 0.0, line * 0.5, line];
-        let at = mesh.surface(0, [0.5, 0.25, 0.25]);
+        let at = mesh.facet(0, [0.5, 0.25, 0.25]).surface();
         assert_eq!((at.dpdu, at.dpdv), (DVec3::ZERO, DVec3::ZERO));
     }
     mesh.uvs.clear();
-    let at = mesh.surface(0, [0.5, 0.25, 0.125]);
+    let at = mesh.facet(0, [0.5, 0.25, 0.125]).surface();
     assert_eq!((at.uv, at.dpdu, at.dpdv), (DVec2::new(0.25, 0.125), DVec3::X * 2.0, DVec3::Y * 3.0));
 }
 
@@ -168,13 +169,13 @@ fn shadow_rays_start_near_the_curved_surface() {
         let mut counter = Counter::new(43, Stage::Test, 0);
         for t in 0..mesh.triangles.len() as u32 {
             let b = sampling::triangle(counter.pair()).map(|b| b as f32);
-            let at = mesh.surface(t, b);
-            let lifted = mesh.shadow_terminator_point(t, b, true);
+            let at = mesh.facet(t, b).surface();
+            let lifted = mesh.facet(t, b).shadow_terminator_point(true);
             assert!((lifted - at.p).dot(at.ng) >= -1e-12);
             assert!(lifted.length() < 1.0 + 2.0 * (1.0 - at.p.length()) + 1e-6);
             *w = w.max((lifted.length() - 1.0).abs());
             // From inside the ball the surface curves away.
-            assert!(mesh.shadow_terminator_point(t, b, false).distance(at.p) < 1e-6);
+            assert!(mesh.facet(t, b).shadow_terminator_point(false).distance(at.p) < 1e-6);
         }
     }
     assert!(worst[0] < 0.06 && worst[1] < worst[0] / 3.0, "{worst:?}");

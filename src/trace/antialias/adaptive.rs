@@ -44,8 +44,10 @@ pub(super) fn pass(
         whole: Whole::of(tile),
         finer: HashMap::default(),
     };
+    let mut is_probe = super::probes(tracer);
     for (x, y) in tile.pixels() {
-        let mut average = Average::of(super::wants(tracer, super::is_probe(tracer, x, y)));
+        let probe = is_probe(x, y);
+        let mut average = Average::of(super::wants(tracer, probe));
         let size = lattice.steps;
         let mut used = 0;
         if lattice.stands_out(x, y) {
@@ -55,7 +57,9 @@ pub(super) fn pass(
             let centre = lattice.centre(x, y);
             lattice.add(centre, 1.0, &mut average);
         }
-        super::add(tile, x, y, average.value(used));
+        if let Some(value) = average.value(used) {
+            tile.add_as(probe, x, y, &value);
+        }
     }
 }
 

@@ -24,6 +24,35 @@ pub(super) struct Average {
     object: Option<u32>,
 }
 
+impl PixelValue {
+    /// Becomes the value of a pixel with one sample: that of an [`Average`] of it. What is not wanted stays as
+    /// it is.
+    #[inline]
+    pub(super) fn set(&mut self, sample: &Sample, wants: Wants) {
+        let value = self;
+        (value.radiance, value.samples) = (sample.radiance.as_dvec3(), 1);
+        (value.bias, value.pair) = (None, None);
+        if wants.split {
+            value.direct = sample.direct.as_dvec3();
+            value.reflection = sample.reflection.as_dvec3();
+            value.refraction = sample.refraction.as_dvec3();
+            value.caustic = sample.caustic.as_dvec3();
+            value.indirect = sample.indirect.as_dvec3();
+        }
+        if wants.photons {
+            value.photons = sample.photons.as_dvec3();
+            value.photon_density = f64::from(sample.photon_density);
+        }
+        if wants.first_hit {
+            value.albedo = sample.first.albedo.as_dvec3();
+            value.normal = sample.first.normal.as_dvec3();
+            value.position = sample.first.position.as_dvec3();
+            value.depth = f64::from(sample.first.depth);
+            value.object = sample.first.object;
+        }
+    }
+}
+
 impl Average {
     /// An empty mean; what is not wanted stays 0.
     pub fn of(wants: Wants) -> Average {
@@ -87,5 +116,37 @@ impl Average {
             bias: None,
             pair: None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::sample::FirstHit;
+
+    #[test]
+    fn the_value_of_one_sample_is_its_average() {
+        let v = |x: f32| Vec3::new(x, 0.1 * x, -x);
+        let first = FirstHit { albedo: v(7.0), normal: v(0.3), depth: 9.1, position: v(8.0), object: 4 };
+        let sample = Sample {
+            radiance: v(0.7),
+            direct: v(1.1),
+            reflection: v(2.3),
+            refraction: v(3.7),
+            caustic: v(4.9),
+            indirect: v(5.3),
+            photons: v(6.1),
+            photon_density: 0.77,
+            first,
+        };
+        for bits in 0..8 {
+            let on = |bit: u32| bits >> bit & 1 == 1;
+            let wants = Wants { split: on(0), photons: on(1), first_hit: on(2), ..Wants::default() };
+            let mut average = Average::of(wants);
+            average.add(&sample, 1.0);
+            let mut value = PixelValue { pair: Some(DVec3::ONE), samples: 7, ..PixelValue::default() };
+            value.set(&sample, wants);
+            assert_eq!(Some(value), average.value(1));
+        }
     }
 }

@@ -3,7 +3,7 @@
 mod adaptive;
 mod average;
 
-use super::{Sample, Scratch, Tally, Tracer, Wants};
+use super::{Probes, Sample, Scratch, Tally, Tracer, Wants};
 use crate::math::random::{Sequence, Stage};
 use crate::math::{DVec2, Place};
 use crate::plan::Antialiasing;
@@ -31,9 +31,10 @@ fn pixel_number(tracer: &Tracer, x: u32, y: u32) -> u64 {
 
 /// n × n samples at the centres of a regular grid.
 fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
+    let mut is_probe = probes(tracer);
     for (x, y) in tile.pixels() {
         let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
-        let probe = is_probe(tracer, x, y);
+        let probe = is_probe(x, y);
         let mut average = Average::of(wants(tracer, probe));
         look(tally, probe, tracer.wants.bias, pass);
         for i in 0..n * n {
@@ -43,13 +44,17 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
             let sample = tracer.sample(film, pixel.at(index), scratch, tally);
             add_finite(&mut average, sample, Place { x, y, pass }, tally);
         }
-        let value = average.value(n * n).map(|value| with_bias(value, tally, n * n));
-        add(tile, x, y, value);
+        if let Some(mut value) = average.value(n * n) {
+            look_up(&mut value, tally, n * n);
+            tile.add_as(probe, x, y, &value);
+        }
     }
 }
 
-fn is_probe(tracer: &Tracer, x: u32, y: u32) -> bool {
-    tracer.wants.probes.is_some_and(|probes| probes.is_probe(x, y))
+/// Tells which pixels of a tile are probes.
+fn probes(tracer: &Tracer) -> impl FnMut(u32, u32) -> bool {
+    let mut scan = tracer.wants.probes.map(Probes::scan);
+    move |x, y| scan.as_mut().is_some_and(|scan| scan.is_probe(x, y))
 }
 
 /// Of a probe's light, the parts are kept.
@@ -67,35 +72,40 @@ fn look(tally: &mut Tally, probe: bool, bias: bool, pass: u32) {
     tally.bias = Default::default();
 }
 
-fn with_bias(value: PixelValue, tally: &mut Tally, samples: u32) -> PixelValue {
-    let bias = tally.bias.map(|sum| sum.as_dvec3() / f64::from(samples));
-    let bias = (tally.probing && bias.iter().all(|b| b.is_finite())).then_some(bias);
-    tally.probing = false;
-    PixelValue { bias, ..value }
+/// Ends to look, with what was found in so many samples.
+fn look_up(value: &mut PixelValue, tally: &Tally, samples: u32) {
+    if tally.probing {
+        let bias = tally.bias.map(|sum| sum.as_dvec3() / f64::from(samples));
+        value.bias = bias.iter().all(|b| b.is_finite()).then_some(bias);
+    }
 }
 
 /// One sample, well distributed over the pixel's passes.
 fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
     let rests = |x: u32, y: u32| tracer.resting.is_some_and(|resting| resting.has(x, y));
+    let (mut is_probe, mut value) = (probes(tracer), PixelValue::default());
     for (x, y) in tile.pixels().filter(|&(x, y)| !rests(x, y)) {
         let item = pixel_number(tracer, x, y);
         let sequence = Sequence::new(tracer.plan.seed, Stage::Film, item, pass);
         let [dx, dy] = sequence.pair();
         let film = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
-        let probe = is_probe(tracer, x, y);
+        let probe = is_probe(x, y);
         look(tally, probe, tracer.wants.bias, pass);
         let sample = tracer.sample(film, sequence, scratch, tally);
-        let rest = sample.rest();
-        let mut average = Average::of(wants(tracer, probe));
-        add_finite(&mut average, sample, Place { x, y, pass }, tally);
-        let value = average.value(1).map(|value| with_bias(value, tally, 1));
-        let pair = (probe && pass.is_multiple_of(PAIR)).then(|| {
+        if !sample.is_finite() {
+            tally.health.non_finite(Place { x, y, pass });
+            continue;
+        }
+        tally.note(|recorder| recorder.weigh_last(1.0));
+        value.set(sample, wants(tracer, probe));
+        look_up(&mut value, tally, 1);
+        if probe && pass.is_multiple_of(PAIR) {
+            let rest = sample.rest();
             let mut aside = Tally::default();
             let other = tracer.sample(film, sequence.dimension(ANOTHER), scratch, &mut aside);
-            (rest - other.rest()).as_dvec3()
-        });
-        let pair = pair.filter(|pair| pair.is_finite());
-        add(tile, x, y, value.map(|value| PixelValue { pair, ..value }));
+            value.pair = Some((rest - other.rest()).as_dvec3()).filter(|pair| pair.is_finite());
+        }
+        tile.add_as(probe, x, y, &value);
     }
 }
 
@@ -106,12 +116,5 @@ fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut 
         average.add(sample, 1.0);
     } else {
         tally.health.non_finite(place);
-    }
-}
-
-/// A pixel all of whose samples were dropped has no value in this pass.
-fn add(tile: &mut Tile, x: u32, y: u32, value: Option<PixelValue>) {
-    if let Some(value) = value {
-        tile.add(x, y, &value);
     }
 }
