@@ -7,9 +7,10 @@ use super::prices::first_photons;
 use super::share::Work;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
+use crate::math::Vec3;
 use crate::plan::{Antialiasing, Plan, Until};
 use crate::survey::Survey;
-use crate::trace::{self, Rays};
+use crate::trace::{self, Rays, Sample, Wants};
 use serde::Serialize;
 
 /// A plan with its prices, on this machine. Serialised as it stands by `terrarium plan --json`.
@@ -60,6 +61,7 @@ impl Planned {
             tiles: kept_by_tiles(
                 plan,
                 options,
+                wants,
                 cost.samples as f64 / (pixels * u64::from(passes)).max(1) as f64,
             ),
             image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
@@ -85,14 +87,16 @@ impl Planned {
     }
 }
 
-/// Adaptive antialiasing keeps a tile's samples in storage that doubles as they come; busy tiles have more
-/// of them than others.
-fn kept_by_tiles(plan: &Plan, options: &Options, samples_per_pixel: f64) -> u64 {
+/// Adaptive antialiasing keeps what a tile's samples yield, and their places, in storage that doubles as they
+/// come; busy tiles have more of them than others.
+fn kept_by_tiles(plan: &Plan, options: &Options, wants: &Wants, samples_per_pixel: f64) -> u64 {
     if !matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
         return 0;
     }
+    let whole = wants.first_hit || wants.split || wants.photons;
+    let each = size_of::<Vec3>() + size_of::<(u64, u32)>() + if whole { size_of::<Sample>() } else { 0 };
     let pixels = f64::from(options.tile) * f64::from(options.tile);
-    let bytes = 3.0 * BUSY * samples_per_pixel * pixels * size_of::<trace::Sample>() as f64;
+    let bytes = 3.0 * BUSY * samples_per_pixel * pixels * each as f64;
     rayon::current_num_threads() as u64 * bytes as u64
 }
 

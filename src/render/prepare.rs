@@ -68,7 +68,9 @@ impl Prepared {
         if stages.any() {
             clock.lap("photons");
         }
-        let photon_bytes = (MAKING * first.memory_bytes() as f64) as u64;
+        let maps = first.memory_bytes();
+        let threads = rayon::current_num_threads() as u64;
+        let photon_bytes = if maps == 0 { 0 } else { (MAKING * maps as f64) as u64 + threads * RETAINED };
         let ready =
             Prepared { plan, world, wants, warnings, files, stages, survey, reference_level, photon_bytes };
         Ok((ready, first))
@@ -125,6 +127,10 @@ impl Prepared {
 /// What making a map takes beside it as it is finished: photons as they were stored (48 bytes against 30), the
 /// tree that divides them, and their order.
 const MAKING: f64 = 3.5;
+
+/// What a thread's allocator has not given back of the photons that it has scattered: found as the middle of the
+/// repository's scenes of small maps (`benches/plan.py forecast`).
+const RETAINED: u64 = 3 << 19;
 
 /// The passes before the one whose squared radius is the mean of all, as a share: for r² ∝ n^(−1/3) that is
 /// (2/3)³.
