@@ -101,7 +101,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     clock.lap("trace");
 
     let Prepared { plan, world, mut warnings, files, .. } = ready;
-    let Traced { film, tally, photons, passes, part, halted } = traced;
+    let Traced { film, tally, photons, passes, part, halted, checkpoints } = traced;
     warnings.extend(health_warnings(&tally, &plan));
     warnings.extend(photons.warnings(plan.max_depth));
     if options.strict {
@@ -127,6 +127,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         passes,
         accuracy,
         next::not_seen(&plan),
+        checkpoints,
     );
     let part = (options.shards.is_some() || halted).then_some((part, film));
     Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files, part, halted })

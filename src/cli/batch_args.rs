@@ -28,23 +28,31 @@ pub struct BatchArgs {
     /// Render these pixels alone, `x0,y0,x1,y1` from the top left, the last column and row not included
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window)]
     pub crop: Option<Window>,
-    /// How often to write down what has been traced, beside the first image as `….checkpoint`; `off` for never
-    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = interval)]
+    /// How often to write down what has been traced, beside the first image as `….checkpoint`; `auto`: every 30
+    /// seconds, less often where that would take more than 2 % of the time; `off`: never
+    #[arg(long, value_name = "TIME", default_value = "auto", value_parser = interval)]
     pub checkpoint: Interval,
     /// Go on from the checkpoint, if there is one
     #[arg(long)]
     pub resume: bool,
 }
 
-/// Of checkpoints; none for never.
+/// Of checkpoints.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval(Option<Duration>);
+pub enum Interval {
+    Never,
+    Auto,
+    Every(Duration),
+}
+
+const AUTO: Duration = Duration::from_secs(30);
 
 fn interval(text: &str) -> Result<Interval, String> {
-    if text.trim() == "off" {
-        return Ok(Interval(None));
+    match text.trim() {
+        "off" => Ok(Interval::Never),
+        "auto" => Ok(Interval::Auto),
+        _ => super::args::seconds(text).map(|s| Interval::Every(Duration::from_secs_f64(s.min(1e9)))),
     }
-    super::args::seconds(text).map(|seconds| Interval(Some(Duration::from_secs_f64(seconds.min(1e9)))))
 }
 
 fn window(text: &str) -> Result<Window, String> {
@@ -105,7 +113,12 @@ impl BatchArgs {
 
     /// Checkpoints beside the first image that is a file.
     pub fn checkpoints(&self, image: Option<&Path>) -> Result<Option<Checkpoint>, Failure> {
-        let (Some(every), Some(image)) = (self.checkpoint.0, image) else {
+        let (every, sparing) = match self.checkpoint {
+            Interval::Never => (None, false),
+            Interval::Auto => (Some(AUTO), true),
+            Interval::Every(time) => (Some(time), false),
+        };
+        let (Some(every), Some(image)) = (every, image) else {
             if self.resume {
                 return Err(Failure::new(USAGE, "--resume needs checkpoints, and an image that is a file"));
             }
@@ -114,7 +127,7 @@ impl BatchArgs {
         let mut path = image.as_os_str().to_owned();
         path.push(".checkpoint");
         let part = self.is_divided().then(|| image.to_path_buf());
-        Ok(Some(Checkpoint { path: path.into(), every, resume: self.resume, part }))
+        Ok(Some(Checkpoint { path: path.into(), every, sparing, resume: self.resume, part }))
     }
 }
 

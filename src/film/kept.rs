@@ -2,6 +2,7 @@
 
 use super::Film;
 use crate::trace::{Reader, Tile, Words};
+use rayon::prelude::*;
 
 /// Words that are not those of a film of this form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,27 +11,60 @@ pub struct Mismatch;
 impl Film {
     /// All sums: tile after tile its next pass, its pixels, its probes.
     pub fn to_words(&self) -> Vec<u32> {
-        let mut words = Words::default();
-        words.0.reserve_exact(self.memory_bytes() / size_of::<u32>());
-        for tile in &self.tiles {
-            words.0.push(tile.next);
-            tile.put_pixels(&mut words);
-            tile.put_probes(&mut words);
-        }
-        words.0
+        let mut all = vec![0; self.tiles.iter().map(Tile::words).sum()];
+        self.tiles.par_iter().zip(slices(&self.tiles, &mut all)).for_each(|(tile, slice)| {
+            let mut words = Words::default();
+            words.0.reserve_exact(slice.len());
+            tile.put(&mut words);
+            slice.copy_from_slice(&words.0);
+        });
+        all
     }
 
     /// Sets all sums to those of [`Film::to_words`] of a film of the same form.
     pub fn set_words(&mut self, words: &[u32]) -> Result<(), Mismatch> {
-        let mut reader = Reader(words);
-        for tile in &mut self.tiles {
-            let Some((next, rest)) = reader.0.split_first() else { return Err(Mismatch) };
-            (tile.next, reader.0) = (*next, rest);
-            if !(tile.take_pixels(&mut reader) && tile.take_probes(&mut reader)) {
-                return Err(Mismatch);
+        self.with_words(words, |tile, words| tile.take(words))
+    }
+
+    /// Adds the passes of [`Film::to_words`] of a film of the same form; if they are `earlier`, what is kept of
+    /// the first pass alone is theirs.
+    pub fn join_words(&mut self, words: &[u32], earlier: bool) -> Result<(), Mismatch> {
+        self.with_words(words, |tile, words| {
+            let mut other = tile.clone();
+            if !other.take(words) {
+                return false;
             }
+            if earlier {
+                std::mem::swap(tile, &mut other);
+            }
+            tile.join(&other);
+            true
+        })
+    }
+
+    /// Has every tile look at its words. After a mismatch, sums are of no use.
+    fn with_words(
+        &mut self,
+        words: &[u32],
+        look: impl Fn(&mut Tile, &mut Reader) -> bool + Sync,
+    ) -> Result<(), Mismatch> {
+        let ends: Vec<usize> = self
+            .tiles
+            .iter()
+            .scan(0, |end, tile| {
+                *end += tile.words();
+                Some(*end)
+            })
+            .collect();
+        if ends.last().copied().unwrap_or(0) != words.len() {
+            return Err(Mismatch);
         }
-        if reader.0.is_empty() { Ok(()) } else { Err(Mismatch) }
+        let all = self.tiles.par_iter_mut().enumerate().all(|(i, tile)| {
+            let start = if i == 0 { 0 } else { ends[i - 1] };
+            let mut reader = Reader(&words[start..ends[i]]);
+            look(tile, &mut reader) && reader.0.is_empty()
+        });
+        if all { Ok(()) } else { Err(Mismatch) }
     }
 
     /// Adds the passes of a film of the same image. Tiles that are not here yet are taken over; where both have
@@ -47,4 +81,10 @@ impl Film {
         }
         self.tiles.sort_by_key(place);
     }
+}
+
+/// Each tile's part of all words.
+fn slices<'a>(tiles: &[Tile], mut all: &'a mut [u32]) -> Vec<&'a mut [u32]> {
+    let next = |tile: &Tile| all.split_off_mut(..tile.words()).expect("the sum of the tiles' words");
+    tiles.iter().map(next).collect()
 }

@@ -7,15 +7,24 @@
 use super::exr::{ATTRIBUTE, picture, save, text};
 use super::{Image, OutputError, Provenance};
 use crate::math::random::combine;
+use exr::block::chunk::CompressedBlock;
 use exr::image::{Blocks, Encoding};
+use exr::meta::BlockDescription;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Layer, LayerAttributes, LineOrder,
-    ReadChannels, ReadLayers, SmallVec, read as reading,
+    SmallVec, Vec2,
 };
-use std::io::{BufReader, Read, Seek, Write};
+use rayon::prelude::*;
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 
 /// Words in a row of the file.
 const ROW: usize = 8192;
+const ROW_BYTES: usize = ROW * size_of::<u32>();
+
+/// Bytes that are read at one go.
+const BUFFER: usize = 1 << 20;
 
 /// Names of the parts.
 const PICTURE: &str = "picture";
@@ -54,44 +63,75 @@ pub fn write(
     save(sink, image, [first, sums])
 }
 
-/// The provenance of a partial image, and its sums with the zeros at their end.
-pub fn read(source: impl Read + Seek + Send) -> Result<(Provenance, Vec<u32>), PartialError> {
-    let file = reading()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_buffered(BufReader::new(source))
-        .map_err(|error| match error {
-            exr::error::Error::Io(error) => PartialError::Io(error),
-            other => PartialError::Other(format!("no OpenEXR file that can be read: {other}")),
-        })?;
-    let provenance = file.layer_data.iter().find_map(|layer| layer.attributes.other.get(&text(ATTRIBUTE)));
+/// The provenance of a partial image, and its sums with the zeros at their end. Its picture is passed over.
+pub fn read(mut source: impl Read + Seek) -> Result<(Provenance, Vec<u32>), PartialError> {
+    let length = source.seek(SeekFrom::End(0))?;
+    source.rewind()?;
+    let reader = exr::block::read(BufReader::with_capacity(BUFFER, source), false).map_err(unreadable)?;
+    let headers = reader.headers();
+    let provenance = headers.iter().find_map(|part| part.own_attributes.other.get(&text(ATTRIBUTE)));
     let Some(AttributeValue::Text(provenance)) = provenance else {
         return Err(PartialError::Other("an EXR file of another program".to_owned()));
     };
     let provenance: Provenance = serde_json::from_str(&provenance.to_string()).map_err(|error| {
         PartialError::Other(format!("an EXR file with an attribute `{ATTRIBUTE}` of another kind: {error}"))
     })?;
-    let sums = file
-        .layer_data
-        .into_iter()
-        .find(|layer| layer.attributes.layer_name.as_ref().is_some_and(|name| *name == *SUMS));
-    let words = sums.and_then(|layer| match layer.channel_data.list.into_iter().next()?.sample_data {
-        FlatSamples::U32(words) => Some(words),
-        _ => None,
-    });
-    match words {
-        Some(words) => Ok((provenance, words)),
-        None => Err(PartialError::Other("an image without its sums: no part of one".to_owned())),
+    let named = |part: &Header| part.own_attributes.layer_name.as_ref().is_some_and(|name| *name == *SUMS);
+    let Some((sums, rows)) = headers.iter().enumerate().find(|(_, part)| named(part)).and_then(rows) else {
+        return Err(PartialError::Other("an image without its sums: no part of one".to_owned()));
+    };
+    if rows as u64 * ROW_BYTES as u64 > length {
+        return Err(PartialError::Damaged("sums are missing".to_owned()));
+    }
+    let chunks = reader.filter_chunks(false, |_, _, block| block.layer == sums).map_err(unreadable)?;
+    let mut words = vec![0; rows * ROW];
+    let mut read = 0;
+    for chunk in chunks {
+        let CompressedBlock::ScanLine(line) = chunk.map_err(unreadable)?.compressed_block else {
+            return Err(PartialError::Damaged("sums of another kind".to_owned()));
+        };
+        let row = usize::try_from(line.y_coordinate).ok().filter(|row| *row < rows);
+        let bytes = line.compressed_pixels_le.as_slice();
+        let (Some(row), ROW_BYTES) = (row, bytes.len()) else {
+            return Err(PartialError::Damaged("a row of sums of another size or place".to_owned()));
+        };
+        let (list, _) = bytes.as_chunks::<4>();
+        words[row * ROW..].iter_mut().zip(list).for_each(|(word, bytes)| *word = u32::from_le_bytes(*bytes));
+        read += 1;
+    }
+    if read < rows {
+        return Err(PartialError::Damaged("rows of sums are missing".to_owned()));
+    }
+    Ok((provenance, words))
+}
+
+/// The number of the part that holds the sums and its rows, if they are as [`write`] writes them.
+fn rows((number, part): (usize, &Header)) -> Option<(usize, usize)> {
+    let [channel] = part.channels.list.as_slice() else { return None };
+    let plain = part.compression == Compression::Uncompressed
+        && part.blocks == BlockDescription::ScanLines
+        && !part.deep
+        && channel.sample_type == SampleType::U32
+        && channel.sampling == Vec2(1, 1)
+        && part.layer_size.width() == ROW;
+    plain.then_some((number, part.layer_size.height()))
+}
+
+fn unreadable(error: exr::error::Error) -> PartialError {
+    match error {
+        exr::error::Error::Io(error) => PartialError::Io(error),
+        other => PartialError::Other(format!("no OpenEXR file that can be read: {other}")),
     }
 }
 
-/// A number that changes with any word: to find damage, not malice.
+/// A number that changes with any word: to find damage, not malice. That of the rows' numbers.
 pub fn checksum(words: &[u32]) -> u64 {
-    let (pairs, rest) = words.as_chunks::<2>();
-    let of = |sum: u64, [low, high]: [u32; 2]| combine(sum, u64::from(low) | u64::from(high) << 32);
-    let sum = pairs.iter().fold(words.len() as u64, |sum, pair| of(sum, *pair));
-    rest.iter().fold(sum, |sum, word| of(sum, [*word, 0]))
+    let row = |row: &[u32]| {
+        let (pairs, rest) = row.as_chunks::<2>();
+        let of = |sum: u64, [low, high]: [u32; 2]| combine(sum, u64::from(low) | u64::from(high) << 32);
+        let sum = pairs.iter().fold(row.len() as u64, |sum, pair| of(sum, *pair));
+        rest.iter().fold(sum, |sum, word| of(sum, [*word, 0]))
+    };
+    let rows: Vec<u64> = words.par_chunks(ROW).map(row).collect();
+    rows.into_iter().fold(words.len() as u64, combine)
 }

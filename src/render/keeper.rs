@@ -5,6 +5,7 @@ use super::stop::Stop;
 use super::{Options, Progress, RenderError, image};
 use crate::film::Film;
 use crate::output::{Provenance, hex};
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,6 +17,8 @@ use std::time::{Duration, Instant};
 pub struct Checkpoint {
     pub path: PathBuf,
     pub every: Duration,
+    /// Whether to write less often where that would take more than a fiftieth of the time.
+    pub sparing: bool,
     /// Goes on from the file, if it is there.
     pub resume: bool,
     /// The partial image that is to become of it: with `resume`, nothing is done if it is there.
@@ -55,7 +58,19 @@ pub(super) struct Keeper<'a> {
     due: Option<Instant>,
     /// Of what was gone on from.
     pub before: Counts,
+    pub checkpoints: Checkpoints,
 }
+
+/// Checkpoints that were written.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Checkpoints {
+    pub written: u32,
+    /// For which tracing waited.
+    pub seconds: f64,
+}
+
+/// The time between checkpoints that are sparing, in their own time.
+const SPARING: u32 = 50;
 
 /// Where a render goes on.
 pub(super) struct Resumed {
@@ -69,7 +84,15 @@ impl<'a> Keeper<'a> {
     pub fn new(options: &'a Options, provenance: &'a Provenance, form: Form) -> Keeper<'a> {
         let shards = options.shards.as_ref().map_or(vec![0], |shards| shards.numbers.clone());
         let due = options.checkpoint.as_ref().map(|checkpoint| Instant::now() + checkpoint.every);
-        Keeper { options, provenance, form, shards, due, before: Counts::default() }
+        Keeper {
+            options,
+            provenance,
+            form,
+            shards,
+            due,
+            before: Counts::default(),
+            checkpoints: Checkpoints::default(),
+        }
     }
 
     /// The film to begin with.
@@ -131,13 +154,18 @@ impl<'a> Keeper<'a> {
     /// Writes a checkpoint, if they are wanted. One that can't be written is told and does not end the render.
     pub fn save(&mut self, film: &Film, part: &Part, progress: &dyn Progress) -> bool {
         let Some(checkpoint) = &self.options.checkpoint else { return false };
+        let began = Instant::now();
         let mut picture = image::assemble(film, &[]);
         picture.layers.truncate(1);
         let saved = kept::save(&checkpoint.path, &picture, self.provenance, part, film);
         if let Err(error) = &saved {
             progress.note(&format!("no checkpoint: {}: {error}", checkpoint.path.display()));
         }
-        self.due = Some(Instant::now() + checkpoint.every);
+        let took = began.elapsed();
+        self.checkpoints.written += u32::from(saved.is_ok());
+        self.checkpoints.seconds += took.as_secs_f64();
+        let least = if checkpoint.sparing { took.saturating_mul(SPARING) } else { Duration::ZERO };
+        self.due = Some(Instant::now() + checkpoint.every.max(least));
         saved.is_ok()
     }
 }

@@ -13,7 +13,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// Of the form of partial images; raised with every change of it.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// What all parts of one image have in common, beside its provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -219,6 +219,17 @@ impl Kept {
         film.set_words(&self.words)
             .map_err(|_| PartialError::Damaged("its sums are not those of its pixels".to_owned()))?;
         Ok(film)
+    }
+
+    /// Adds its passes to a film of the same form that has others; with which comes first.
+    pub fn join(&self, film: &mut Film, earlier: bool) -> Result<(), PartialError> {
+        let mismatch = || PartialError::Damaged("its sums are not those of its pixels".to_owned());
+        if self.part.form.by == By::Passes {
+            return film.join_words(&self.words, earlier).map_err(|_| mismatch());
+        }
+        // Tiles are one part's or the other's.
+        film.join(self.film()?);
+        Ok(())
     }
 
     /// How this differs from what is rendered now, if it does.

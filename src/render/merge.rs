@@ -5,7 +5,6 @@ use super::{By, image};
 use crate::film::{Accuracy, Film};
 use crate::output::partial::PartialError;
 use crate::output::{Bits, Image, PngSettings, Provenance};
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// An image that was put together.
@@ -31,32 +30,36 @@ pub enum MergeError {
 
 /// Puts together the parts in `files`. Shards may be missing only if that is `allowed`; some has to be there.
 pub fn merge(files: &[PathBuf], allowed: bool) -> Result<Merged, MergeError> {
-    let mut whole: Option<Sum> = None;
-    // A few at once: each holds all of its sums.
-    for few in files.chunks(rayon::current_num_threads().max(1)) {
-        let parts: Vec<_> = few.par_iter().map(|file| part(file)).collect();
-        for (file, part) in few.iter().zip(parts) {
-            let (kept, film) = part?;
-            match &mut whole {
-                None => whole = Some(Sum::of(file, kept, film)),
-                Some(sum) => sum.add(file, kept, film)?,
-            }
-        }
+    let Some((first, others)) = files.split_first() else {
+        return Err(MergeError::Invalid("no part is there".to_owned()));
+    };
+    let mut whole = Sum::of(first, part(first)?)?;
+    let mut next = others.first().map(|file| part(file));
+    for (i, file) in others.iter().enumerate() {
+        let Some(kept) = next.take() else { break };
+        let kept = kept?;
+        // The next is read beside it.
+        let after = others.get(i + 1);
+        let (added, read) = rayon::join(|| whole.add(file, kept), || after.map(|file| part(file)));
+        added?;
+        next = read;
     }
-    whole.ok_or_else(|| MergeError::Invalid("no part is there".to_owned()))?.finish(allowed)
+    whole.finish(allowed)
 }
 
-fn part(file: &Path) -> Result<(Kept, Film), MergeError> {
-    let unreadable = |error| MergeError::Unreadable(file.to_path_buf(), error);
-    let kept = kept::load(file).map_err(unreadable)?;
+fn part(file: &Path) -> Result<Kept, MergeError> {
+    let kept = kept::load(file).map_err(|error| unreadable(file, error))?;
     if !kept.part.finished {
         return Err(MergeError::Invalid(format!(
             "{} is a checkpoint of a part that is not finished: go on with it with --resume",
             file.display()
         )));
     }
-    let film = kept.film().map_err(unreadable)?;
-    Ok((kept, film))
+    Ok(kept)
+}
+
+fn unreadable(file: &Path, error: PartialError) -> MergeError {
+    MergeError::Unreadable(file.to_path_buf(), error)
 }
 
 /// What has been put together so far.
@@ -72,13 +75,15 @@ struct Sum {
 }
 
 impl Sum {
-    fn of(file: &Path, kept: Kept, film: Film) -> Sum {
+    fn of(file: &Path, kept: Kept) -> Result<Sum, MergeError> {
+        let film = kept.film().map_err(|error| unreadable(file, error))?;
         let from = kept.part.shards.iter().map(|shard| (*shard, file.to_path_buf())).collect();
         let counts = kept.part.counts;
-        Sum { provenance: kept.provenance, part: kept.part, counts, film, from, first: file.to_path_buf() }
+        let Kept { provenance, part, .. } = kept;
+        Ok(Sum { provenance, part, counts, film, from, first: file.to_path_buf() })
     }
 
-    fn add(&mut self, file: &Path, kept: Kept, film: Film) -> Result<(), MergeError> {
+    fn add(&mut self, file: &Path, kept: Kept) -> Result<(), MergeError> {
         // Which shards it is of is all that may differ.
         if let Some(difference) = kept.other_than(&self.provenance, &self.part.form, &kept.part.shards) {
             return Err(MergeError::Invalid(format!(
@@ -99,12 +104,10 @@ impl Sum {
         }
         self.counts = self.counts.plus(kept.part.counts);
         // What is kept of the first pass alone comes from the part that has it.
-        if kept.part.shards.first() < self.part.shards.first() {
+        let earlier = kept.part.shards.first() < self.part.shards.first();
+        kept.join(&mut self.film, earlier).map_err(|error| unreadable(file, error))?;
+        if earlier {
             self.part = kept.part;
-            let later = std::mem::replace(&mut self.film, film);
-            self.film.join(later);
-        } else {
-            self.film.join(film);
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Pass after pass, until the plan's last or until a rule says that it is enough.
 
-use super::keeper::Keeper;
+use super::keeper::{Checkpoints, Keeper};
 use super::kept::{Counts, Part};
 use super::photons::{AllPhotons, PassMaps};
 use super::prepare::Prepared;
@@ -29,6 +29,7 @@ pub(super) struct Traced {
     pub part: Part,
     /// Whether it was stopped from outside.
     pub halted: bool,
+    pub checkpoints: Checkpoints,
 }
 
 pub(super) fn trace(
@@ -113,7 +114,8 @@ pub(super) fn trace(
     if halted {
         keeper.save(&film, &part, progress);
     }
-    Ok(Traced { film, tally, photons, passes: done, part, halted })
+    let checkpoints = keeper.checkpoints;
+    Ok(Traced { film, tally, photons, passes: done, part, halted, checkpoints })
 }
 
 /// Traces those of a step's passes that tiles have not yet, unless they have to wait.

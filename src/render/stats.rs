@@ -1,5 +1,6 @@
 //! What a render cost and counted, for people and machines.
 
+use super::keeper::Checkpoints;
 use super::{AllPhotons, Next, Planned, Priced};
 use crate::build::{Geometry, Mesh, World};
 use crate::film::{Accuracy, Film};
@@ -35,6 +36,7 @@ pub struct Stats {
     #[serde(flatten)]
     pub photons: AllPhotons,
     pub memory: Memory,
+    pub checkpoints: Checkpoints,
     #[serde(rename = "scene_size")]
     pub scene: SceneSize,
 }
@@ -88,6 +90,7 @@ impl Stats {
         passes: u32,
         accuracy: Option<Accuracy>,
         not_seen: Vec<String>,
+        checkpoints: Checkpoints,
     ) -> Stats {
         let health = &tally.health;
         let rare_events = Rare::ALL.into_iter().map(|event| RareEvent {
@@ -109,6 +112,7 @@ impl Stats {
                 .and_then(|a| Next::after(f64::from(a.passes), a, traced / f64::from(passes.max(1)))),
             accuracy,
             not_seen,
+            checkpoints,
             samples: health.samples,
             rays: tally.rays,
             truncated_paths: tally.cut.paths,

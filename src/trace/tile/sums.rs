@@ -65,24 +65,31 @@ impl Tile {
             && take(&mut self.bias, i, words)
     }
 
-    /// Appends the sums of all pixels, row by row.
-    pub fn put_pixels(&self, words: &mut Words) {
+    /// How many words [`Tile::put`] appends.
+    pub fn words(&self) -> usize {
+        let (mut pixel, mut probe) = (Words::default(), Words::default());
+        if !self.radiance.is_empty() {
+            self.put_pixel(0, &mut pixel);
+        }
+        if let Some(first) = self.probes.first() {
+            first.put(&mut probe);
+        }
+        1 + self.radiance.len() * pixel.0.len() + self.probes.len() * probe.0.len()
+    }
+
+    /// Appends the number of the next pass, the sums of all pixels, row by row, and the probes.
+    pub fn put(&self, words: &mut Words) {
+        self.next.put(words);
         (0..self.radiance.len()).for_each(|i| self.put_pixel(i, words));
-    }
-
-    /// Sets the sums of all pixels. `false` where words are missing.
-    pub fn take_pixels(&mut self, words: &mut Reader) -> bool {
-        (0..self.radiance.len()).all(|i| self.take_pixel(i, words))
-    }
-
-    /// Appends the tile's probes.
-    pub fn put_probes(&self, words: &mut Words) {
         self.probes.iter().for_each(|probe| probe.put(words));
     }
 
-    /// Sets the tile's probes. `false` where words are missing.
-    pub fn take_probes(&mut self, words: &mut Reader) -> bool {
-        self.probes.iter_mut().all(|slot| Probe::take(words).map(|probe| *slot = probe).is_some())
+    /// Sets all of it to what [`Tile::put`] has appended of a tile of the same size and layers. `false` where
+    /// words are missing.
+    pub fn take(&mut self, words: &mut Reader) -> bool {
+        u32::take(words).map(|next| self.next = next).is_some()
+            && (0..self.radiance.len()).all(|i| self.take_pixel(i, words))
+            && self.probes.iter_mut().all(|slot| Probe::take(words).map(|probe| *slot = probe).is_some())
     }
 
     /// Adds the passes of a tile of the same place and layers. What is kept of the first pass alone stays this
