@@ -42,6 +42,7 @@ def equal(folder, one, other):
 def merging(folder):
     _, files = shards(PLAIN, folder, LARGE)
     render(PLAIN, folder, *LARGE, "-o", "whole.exr")
+    os.sync()
     runs = [Run([TERRARIUM, "merge", *files, "-o", "merged.exr"], folder) for _ in range(TURNS)]
     equal(folder, "merged.exr", "whole.exr")
     size = os.path.getsize(os.path.join(folder, files[0])) / 2**20

@@ -4,7 +4,7 @@ use super::keeper::{Checkpoints, Keeper};
 use super::kept::{Counts, Part};
 use super::photons::{AllPhotons, PassMaps};
 use super::prepare::Prepared;
-use super::share::Steps;
+use super::share::{Steps, stretches};
 use super::stop::Stop;
 use super::{Options, Planned, Progress, RenderError};
 use crate::film::Film;
@@ -50,13 +50,9 @@ pub(super) fn trace(
         }
         None => (keeper.film(), plan.first_pass, 0),
     };
-    let stretches = match &options.shards {
-        Some(shards) => shards.passes(plan),
-        None => std::iter::once(plan.first_pass..plan.first_pass + plan.passes).collect(),
-    };
     let several = stages.one_map() && !plan.until.is_any() && !progress.looks_on();
     let batch = if several { BATCH } else { 1 };
-    let mut steps = Steps::new(stretches, batch, begin);
+    let mut steps = Steps::new(stretches(options, plan), batch, begin);
     let mut tally = Tally::default();
     let mut photons = stages.stats(world);
     let tiles = film.tiles.len() as u64;
@@ -64,7 +60,7 @@ pub(super) fn trace(
     progress.start("trace", tiles * (u64::from(done) + left), "tiles");
     progress.advance(tiles * u64::from(done));
     let mut maps = first;
-    let mut of = plan.first_pass;
+    let mut of = ready.first_pass;
     let (mut at, mut counted, mut halted) = (begin, false, false);
     while let Some(step) = steps.next() {
         at = step.start;

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::photons::{PassMaps, PassStages};
-use super::share::Work;
+use super::share::{Work, stretches};
 use super::{Options, Planned, Progress, RenderError, room};
 use crate::build::{self, Built, World};
 use crate::description::Loaded;
@@ -24,6 +24,8 @@ pub(super) struct Prepared {
     reference_level: f32,
     /// Bytes that making a pass's photons takes.
     photon_bytes: u64,
+    /// Of those that are traced here.
+    pub first_pass: u32,
 }
 
 impl Prepared {
@@ -64,15 +66,26 @@ impl Prepared {
         }
         let survey = Survey::new(&world, &plan, stages.emission());
         clock.lap("survey");
-        let first = stages.pass(&world, plan.first_pass);
+        let first_pass = stretches(options, &plan).first().map_or(plan.first_pass, |stretch| stretch.start);
+        let first = stages.pass(&world, first_pass);
         if stages.any() {
             clock.lap("photons");
         }
         let maps = first.memory_bytes();
         let threads = rayon::current_num_threads() as u64;
         let photon_bytes = if maps == 0 { 0 } else { (MAKING * maps as f64) as u64 + threads * RETAINED };
-        let ready =
-            Prepared { plan, world, wants, warnings, files, stages, survey, reference_level, photon_bytes };
+        let ready = Prepared {
+            plan,
+            world,
+            wants,
+            warnings,
+            files,
+            stages,
+            survey,
+            reference_level,
+            photon_bytes,
+            first_pass,
+        };
         Ok((ready, first))
     }
 
@@ -100,7 +113,7 @@ impl Prepared {
         let work = Work::of(options, &self.plan, &self.world.camera);
         let guess = work.passes.min(if self.plan.until.is_any() { GUESS } else { u32::MAX });
         // Radii shrink; this pass's is the typical one.
-        let typical = self.plan.first_pass + (TYPICAL * f64::from(guess)) as u32;
+        let typical = self.first_pass + (TYPICAL * f64::from(guess)) as u32;
         let tracer = Tracer {
             caustics: self.stages.caustics_of(first, typical),
             indirect: self.stages.indirect_of(first, typical),

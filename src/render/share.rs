@@ -80,6 +80,14 @@ impl Shards {
     }
 }
 
+/// The stretches of passes that are traced here, in order.
+pub(super) fn stretches(options: &Options, plan: &Plan) -> Vec<Range<u32>> {
+    match &options.shards {
+        Some(shards) => shards.passes(plan),
+        None => std::iter::once(plan.first_pass..plan.first_pass + plan.passes).collect(),
+    }
+}
+
 /// How much is traced here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Work {
@@ -97,11 +105,10 @@ impl Work {
                 let share = shards.numbers.len() as f64 / f64::from(shards.of);
                 Work { passes: plan.passes, pixels: share * pixels }
             }
-            Some(shards) => {
-                let passes = shards.passes(plan).iter().map(|stretch| stretch.end - stretch.start).sum();
+            _ => {
+                let passes = stretches(options, plan).iter().map(|stretch| stretch.end - stretch.start).sum();
                 Work { passes, pixels }
             }
-            None => Work { passes: plan.passes, pixels },
         }
     }
 }
