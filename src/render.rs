@@ -69,7 +69,9 @@ pub fn plan(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Resu
     on_threads(options, || {
         let mut clock = Clock::start();
         let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
-        Ok(ready.planned(&first, options, progress, &mut clock))
+        let planned = ready.planned(&first, options, progress, &mut clock);
+        room::foreseen(options, &planned)?;
+        Ok(planned)
     })
 }
 
@@ -90,6 +92,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let mut clock = Clock::start();
     let (ready, first) = Prepared::new(loaded, options, progress, &mut clock)?;
     let planned = ready.planned(&first, options, progress, &mut clock);
+    room::foreseen(options, &planned)?;
     let before = prices::first_photons(&first, &clock);
     let mut provenance = image::provenance(loaded, &ready.plan, &planned.survey, &ready.world);
     let camera = &ready.world.camera;

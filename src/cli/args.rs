@@ -181,7 +181,7 @@ pub struct Work {
     /// reflection, refraction, caustic, indirect, photons, photon_density, variance, noise, bias, edges
     #[arg(long, value_name = "LAYER,…", value_delimiter = ',')]
     pub aov: Vec<Aov>,
-    /// The most memory that the image may take, such as 512MiB or 4GiB; what the machine has if not given
+    /// The most memory that the render may take, such as 512MiB or 4GiB; what the machine has if not given
     #[arg(long, value_name = "SIZE", value_parser = bytes)]
     pub memory: Option<u64>,
 }

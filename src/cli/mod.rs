@@ -6,6 +6,7 @@
 mod args;
 mod batch_args;
 mod blocks;
+mod breakage;
 mod check;
 mod convert;
 mod diff;

@@ -4,6 +4,7 @@
 //! names. Off a terminal nothing is drawn over.
 
 use super::args::ProgressChoice;
+use super::breakage::Breakage;
 use super::frames::Place;
 use super::machine::{self, DONE, State};
 use super::plan;
@@ -33,6 +34,7 @@ pub struct Reporter {
     /// The picture's error, as it was told last.
     err: Mutex<Option<f64>>,
     viewer: Option<Viewer>,
+    breakage: Breakage,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +72,7 @@ impl Reporter {
             form,
             terminal: terminal.clone(),
             tells_plan: false,
+            breakage: Breakage::asked_for(),
             place: Place { of: 1, ..Place::default() },
             stage: Mutex::new(None),
             err: Mutex::new(None),
@@ -178,6 +181,7 @@ impl Progress for Reporter {
     }
 
     fn advance(&self, done: u64) {
+        self.breakage.step();
         let mut guard = self.stage();
         let Some(stage) = guard.as_mut() else { return };
         stage.done = stage.done.saturating_add(done);

@@ -35,6 +35,11 @@ pub struct Planned {
     pub photons: AllPhotons,
     /// Highest memory of the process, where the system tells what it holds.
     pub peak_bytes: Option<u64>,
+    /// What that is made of.
+    #[serde(skip)]
+    pub(super) held: Option<memory::Held>,
+    #[serde(skip)]
+    pub(super) later: memory::Later,
     pub memory: Memory,
     #[serde(rename = "scene_size")]
     pub scene: SceneSize,
@@ -66,6 +71,7 @@ impl Planned {
             ),
             image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
         };
+        let held = memory::held();
         let mut prices = cost.bill;
         prices.add_photons(first_photons(first, clock));
         let mut done = clock.stages.clone();
@@ -79,7 +85,9 @@ impl Planned {
             prices,
             samples: cost.samples,
             rays: cost.rays,
-            peak_bytes: memory::held().map(|held| held.peak(&later)),
+            peak_bytes: held.map(|held| held.peak(&later)),
+            later,
+            held,
             memory: Memory::of(world, film as usize, &photons),
             scene: SceneSize::of(world),
             photons,

@@ -1,7 +1,7 @@
-//! Whether the image has room in memory, known before anything is built: sums over passes, and the layers that
-//! are made of them and written.
+//! Whether a render has room in memory: the image's sums and layers, known before anything is built, and all of
+//! it, foretold once the scene is.
 
-use super::{Options, RenderError};
+use super::{Options, Planned, RenderError};
 use crate::forecast::memory;
 use crate::trace::{self, Tile};
 
@@ -30,6 +30,22 @@ pub(super) fn check(options: &Options, width: u32, height: u32) -> Result<(), Re
     Err(RenderError::TooLarge(format!(
         "the image takes {width} × {height} pixels × ({sums} bytes of sums + {layers} of layers) = {bytes} bytes; \
          {whose} {limit}"
+    )))
+}
+
+/// Refuses a render that is foretold to take more than `options.memory`.
+pub(super) fn foreseen(options: &Options, planned: &Planned) -> Result<(), RenderError> {
+    let (Some(limit), Some(held), Some(peak)) = (options.memory, planned.held, planned.peak_bytes) else {
+        return Ok(());
+    };
+    if peak <= limit {
+        return Ok(());
+    }
+    let later = &planned.later;
+    Err(RenderError::TooLarge(format!(
+        "the render takes about {} bytes that are held now, with the scene + {} of sums + {} of the next pass's \
+         photons + {} of samples in tiles + {} of layers, {peak} at its highest; the limit is {limit}",
+        held.now, later.film, later.photons, later.tiles, later.image
     )))
 }
 

@@ -61,3 +61,30 @@ fn a_texture_that_vanishes_between_check_and_render_is_told() {
     assert!(lab.fails(3, &["render", "scene.ron", "-o", "out.exr"]).contains("t.png"));
     assert_eq!(lab.names(), ["scene.ron"]);
 }
+
+#[test]
+fn a_thread_that_breaks_off_leaves_the_old_file_and_no_other() {
+    let lab = Lab::new(CAUSTIC);
+    fs::write(lab.path("out.exr"), "the old file").expect("written");
+    for (step, threads) in [("1", "1"), ("2", "2"), ("5", "2")] {
+        let words = ["render", "scene.ron", "-o", "out.exr", "--tile", "16", "--threads", threads];
+        let output = lab.command(&words).env("TERRARIUM_BREAK", step).output().expect("the program runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("the program broke off, which is a defect of its own"), "{said}");
+        assert!(!said.contains("panicked"), "{said}");
+        assert_eq!(lab.bytes("out.exr"), b"the old file");
+        assert_eq!(lab.names(), ["out.exr", "scene.ron"]);
+    }
+}
+
+#[test]
+fn a_render_that_is_foretold_to_take_more_than_the_limit_is_refused_with_what_it_takes() {
+    let lab = Lab::new(&CAUSTIC.replace("count: 20000", "count: 3000000"));
+    let said = lab.fails(5, &["render", "scene.ron", "-o", "out.exr", "--memory", "24MiB"]);
+    assert!(said.contains("of the next pass's photons") && said.contains("the limit is 25165824"), "{said}");
+    assert_eq!(lab.names(), ["scene.ron"]);
+    lab.fails(5, &["plan", "scene.ron", "--memory", "24MiB"]);
+    let lab = Lab::new(CAUSTIC);
+    lab.render(&["-o", "out.exr", "--passes", "2", "--memory", "256MiB"]);
+}

@@ -23,7 +23,7 @@ fn shards_of_passes_with_caustics_merge_to_the_bits_of_one_render() {
     let lab = Lab::new(CAUSTIC);
     let more = ["--passes", "9", "--aov", "normal,caustic,variance,bias,photons,samples"];
     lab.render(&[&["-o", "whole.exr", "-o", "whole.png"], &more[..]].concat());
-    for n in [1, 2, 5, 7] {
+    for n in 1..=7 {
         assert!(in_parts(&lab, n, &more) == lab.bytes("whole.exr"), "{n} shards");
         assert!(lab.bytes("merged.png") == lab.bytes("whole.png"), "{n} shards");
     }
@@ -33,9 +33,29 @@ fn shards_of_passes_with_caustics_merge_to_the_bits_of_one_render() {
 fn shards_of_tiles_with_adaptive_antialiasing_merge_to_the_bits_of_one_render() {
     let lab = Lab::new(ADAPTIVE);
     lab.render(&["-o", "whole.exr", "--aov", "edges,depth"]);
-    for n in [2, 3, 6] {
+    for n in 1..=7 {
         assert!(in_parts(&lab, n, &["--aov", "edges,depth"]) == lab.bytes("whole.exr"), "{n} shards");
     }
+}
+
+#[test]
+fn shards_of_a_frame_merge_to_the_bits_of_that_frame() {
+    let keys = r#"animation: (frames: 5, keys: {
+        "lights.lamp.center": linear([(frame: 1, value: (1, 3, 0.5)), (frame: 5, value: (-1, 3, 0))]),
+        "camera.fov_deg": linear([(frame: 1, value: 40), (frame: 5, value: 30)]),
+    }),"#;
+    let lab = Lab::new(&CAUSTIC.replacen('(', &format!("({keys}"), 1));
+    let more = ["--frame", "4", "--passes", "8"];
+    lab.render(&[&["-o", "whole.exr", "-o", "whole.png"], &more[..]].concat());
+    lab.render(&["-o", "other.exr", "--frame", "3", "--passes", "8"]);
+    assert!(lab.bytes("other.exr") != lab.bytes("whole.exr"), "frames differ");
+    for n in 1..=7 {
+        assert!(in_parts(&lab, n, &more) == lab.bytes("whole.exr"), "{n} shards");
+        assert!(lab.bytes("merged.png") == lab.bytes("whole.png"), "{n} shards");
+    }
+    lab.render(&["--frame", "3", "--shard", "0/2", "--passes", "8", "-o", "a.exr"]);
+    lab.render(&["--frame", "4", "--shard", "1/2", "--passes", "8", "-o", "b.exr"]);
+    lab.fails(2, &["merge", "a.exr", "b.exr", "-o", "mixed.exr"]);
 }
 
 #[test]
