@@ -13,7 +13,7 @@ SELF   := $(firstword $(MAKEFILE_LIST))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all build renders images names gallery turntable test hard crosscheck lint bench yardstick honesty study assets schema install clean help FORCE
+.PHONY: all build renders images names gallery turntable test hard faults crosscheck lint bench yardstick honesty study assets schema install clean help FORCE
 
 # The program: built here, unless another one is named.
 ifeq ($(origin TERRARIUM),undefined)
@@ -141,6 +141,12 @@ hard:
 	    --skip table:: --skip record::
 	@HARD_CASES_OUT='$(abspath $(HARD))' \
 	    $(CARGO) test --release --locked --test all -- --ignored --exact hard_cases::table::write_the_page
+
+## faults: renders killed 200 times at random moments, and at each of their writes (needs strace)
+faults: build
+	KILLS=200 $(CARGO) test --release --locked --test all -- batch::resume::a_render_that_is_killed
+	@command -v python3 >/dev/null || { echo "make faults: the writes are skipped: no python3"; exit 0; }; \
+	    TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 tests/faults.py
 
 ## crosscheck: scenes rendered by Mitsuba 3 too, and docs/crosscheck.md; needs python3 with mitsuba (PYTHON=...), else it is skipped
 PYTHON ?= python3
