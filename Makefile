@@ -133,7 +133,7 @@ test:
 # Where the rows of the hard cases are gathered.
 HARD := $(or $(CARGO_TARGET_DIR),target)/hard-cases
 
-## hard: every hard case at full size, and docs/hard-cases.md from what was measured; takes a while
+## hard: every hard case at full size, and docs/hard-cases.md from what was measured; and `make faults`; takes a while
 hard:
 	@rm -rf '$(HARD)' && mkdir -p '$(HARD)'
 	-HARD_CASES=full HARD_CASES_OUT='$(abspath $(HARD))' \
@@ -141,6 +141,7 @@ hard:
 	    --skip table:: --skip record::
 	@HARD_CASES_OUT='$(abspath $(HARD))' \
 	    $(CARGO) test --release --locked --test all -- --ignored --exact hard_cases::table::write_the_page
+	@$(MAKE) --no-print-directory faults
 
 ## faults: renders killed 200 times at random moments, and at each of their writes (needs strace)
 faults: build

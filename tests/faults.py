@@ -66,6 +66,14 @@ def finish(folder, whole, when):
         sys.exit("%s: it leaves %s" % (when, left))
 
 
+def reader():
+    try:
+        import OpenEXR
+        return "read by OpenEXR %s" % OpenEXR.__version__
+    except ImportError:
+        return "not read by OpenEXR, which Python does not have here"
+
+
 def main():
     if not shutil.which("strace"):
         print("make faults: skipped: there is no strace")
@@ -94,8 +102,8 @@ def main():
                     finish(folder, whole, when)
                     kills += kill
                     refused += not kill
-        print("%d calls: killed at %d, refused at %d; images were there after %d; always whole, and gone on with"
-              % (calls, kills, refused, early))
+        print("%d calls: killed at %d, refused at %d; images were there after %d (%s); always whole, and gone on with"
+              % (calls, kills, refused, early, reader()))
 
 
 main()

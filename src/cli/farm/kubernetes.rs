@@ -20,7 +20,7 @@ pub fn sheets(job: &Job) -> Vec<Sheet> {
     rules:
       - {{action: FailJob, onExitCodes: {{containerName: terrarium, operator: In, values: [2]}}}}
       - {{action: Ignore, onExitCodes: {{containerName: terrarium, operator: In, values: [6]}}}}
-      - {{action: Ignore, onPodConditions: [{{type: DisruptionTarget}}]}}
+      - {{action: Ignore, onPodConditions: [{{type: DisruptionTarget, status: \"True\"}}]}}
 ",
         shards = job.shards
     );
