@@ -143,9 +143,9 @@ hard:
 	    $(CARGO) test --release --locked --test all -- --ignored --exact hard_cases::table::write_the_page
 	@$(MAKE) --no-print-directory faults
 
-## faults: renders killed 200 times at random moments, and at each of their writes (needs strace)
+## faults: renders killed 200 times at random moments, and at each of their writes (needs strace); shards 1 to 7
 faults: build
-	KILLS=200 $(CARGO) test --release --locked --test all -- batch::resume::a_render_that_is_killed
+	KILLS=200 $(CARGO) test --release --locked --test all -- batch::resume::a_render_that_is_killed batch::merge::
 	@command -v python3 >/dev/null || { echo "make faults: the writes are skipped: no python3"; exit 0; }; \
 	    TERRARIUM="$(abspath $(TERRARIUM))" PYTHONDONTWRITEBYTECODE=1 python3 tests/faults.py
 
