@@ -59,7 +59,7 @@ def forecast(folder, wanted):
         time = took["predicted_seconds"] / seconds
         peak = took["predicted_peak_bytes"] / took["peak_bytes"]
         times.append(max(time, 1 / time))
-        peaks.append(max(peak, 1 / peak))
+        peaks.append(abs(peak - 1))
         spent = sum(stage["seconds"] for stage in took["stages"] if stage["name"] in ("plan", "survey", "forecast"))
         planning.append((spent, spent / seconds))
         print("  %-34s %9.2f %9.2f %6.2f   %9.1f %9.1f %6.2f   planning %4.1f ms, %.1f %%" % (
@@ -67,7 +67,7 @@ def forecast(folder, wanted):
             took["peak_bytes"] / 2**20, took["predicted_peak_bytes"] / 2**20, peak, 1e3 * spent,
             100 * spent / seconds))
     verdict("share of scenes within a factor 1.5 in time", sum(t <= 1.5 for t in times) / len(times), 0.9, "more")
-    verdict("share of scenes within 20 % in memory", sum(p <= 1.25 for p in peaks) / len(peaks), 0.9, "more")
+    verdict("share of scenes within 20 % in memory", sum(p <= 0.2 for p in peaks) / len(peaks), 0.9, "more")
     verdict("planning at most, ms", 1e3 * max(p[0] for p in planning), 50, "less")
     verdict("planning at most, share of the render", max(p[1] for p in planning), 0.02, "less")
 

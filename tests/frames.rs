@@ -265,7 +265,24 @@ fn openjd_reads_progress_and_failures_from_standard_output() {
     let failed = run(&folder, "render scene.ron --frames 1-4 -o #/a#.exr -q --progress openjd");
     assert_eq!(failed.code, Some(4));
     let last = failed.stdout.lines().last().unwrap_or_default();
-    assert_eq!(last, "openjd_fail: 4 of 4 frames failed: 1, 2, 3, 4");
+    assert!(
+        last.starts_with("openjd_fail: 4 of 4 frames failed: 1, 2, 3, 4; the first of them: can't write"),
+        "{last}"
+    );
+    // what is wrong with a scene is told to programs too
+    for form in ["openjd", "json"] {
+        let wrong =
+            run(&folder, &format!("render scene.ron -o a.exr -q --set image.width=0 --progress {form}"));
+        let said = if form == "json" { &wrong.stderr } else { &wrong.stdout };
+        let last = said.lines().last().unwrap_or_default();
+        assert!(wrong.code == Some(2) && last.contains("0 is outside [1, 65536]"), "{said}");
+        if form == "json" {
+            let line: serde_json::Value = serde_json::from_str(last).expect("an object");
+            assert_eq!((&line["note"], &line["code"]), (&"failed".into(), &2.into()));
+        } else {
+            assert!(last.starts_with("openjd_fail: --set image.width=0"), "{last}");
+        }
+    }
     for clash in ["-o - --progress openjd", "-o a.exr --stats - --progress openjd"] {
         let done = run(&folder, &format!("render scene.ron {clash}"));
         assert!(done.code == Some(2) && done.stderr.contains("standard output"), "{}", done.stderr);

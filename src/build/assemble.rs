@@ -193,9 +193,7 @@ impl Transmissive {
                         ));
                     }
                 }
-                Geometry::Shape(shape) if !shape.closed() => warnings.push(format!(
-                    "object `{name}`: a transmissive material on an open shape; where light leaves it is ambiguous"
-                )),
+                // what is wrong with shapes the description tells
                 Geometry::Shape(_) => {}
             }
         }

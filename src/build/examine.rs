@@ -18,6 +18,7 @@ const MOST: usize = 1000;
 /// What is wrong or doubtful with the meshes and images that a checked scene names and would use, and
 /// with what it takes from them. Asset paths in it are relative to the current folder.
 pub fn examine(scene: &Scene) -> Vec<Finding> {
+    let scene = &*scene.simplified();
     let mut findings = Findings(Vec::new());
     let mut surfaces = Surfaces::examine(scene, &mut findings);
     for (name, light) in scene.lights.iter() {

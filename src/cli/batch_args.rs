@@ -20,7 +20,7 @@ pub struct BatchArgs {
     #[arg(long, value_name = "A-B,…", requires = "of")]
     pub shards: Option<String>,
     /// The number of parts, for --shards and `--shard auto`
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST)))]
     pub of: Option<u32>,
     /// Folder for partial images, named by scene and part
     #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
@@ -44,6 +44,9 @@ pub enum Interval {
     Auto,
     Every(Duration),
 }
+
+/// Parts of a render at most.
+const MOST: u32 = 1 << 20;
 
 const AUTO: Duration = Duration::from_secs(30);
 
@@ -85,9 +88,13 @@ impl BatchArgs {
         let parsed =
             shard.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
         match parsed {
-            Some((number, of)) if number < of && self.of.is_none_or(|n| n == of) => {
-                Ok(Some(Shards { numbers: vec![number], of }))
+            Some((_, of)) if self.of.is_some_and(|n| n != of) => Err(wrong(format!(
+                "--shard {shard} is one of {of} parts, and --of says another number: leave it out"
+            ))),
+            Some((_, of)) if of > MOST => {
+                Err(wrong(format!("--shard {shard}: a render has {MOST} parts at most")))
             }
+            Some((number, of)) if number < of => Ok(Some(Shards { numbers: vec![number], of })),
             _ => Err(wrong(format!("--shard {shard}: a part is `2/8`, from 0/8 to 7/8, or `auto`"))),
         }
     }
@@ -97,9 +104,10 @@ impl BatchArgs {
     }
 
     /// The name of a partial image in --out-dir.
-    pub fn name(&self, scene: &Path, shards: &Shards) -> String {
+    pub fn name(&self, scene: &Path, frame: Option<u32>, shards: &Shards) -> String {
         let stem = scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
         let stem = if stem == "-" { "scene".into() } else { stem };
+        let stem = frame.map_or(stem.to_string(), |frame| format!("{stem}.{frame:04}"));
         let of = shards.of;
         match shards.numbers[..] {
             [number] => format!("{stem}.shard-{number:04}-of-{of:04}.exr"),
@@ -133,7 +141,7 @@ impl BatchArgs {
 
 /// Parts, rising; none may be there twice.
 fn parts(text: &str) -> Result<Vec<u32>, String> {
-    let mut list = numbers(text, 0, 1 << 20)?;
+    let mut list = numbers(text, 0, MOST as usize)?;
     list.sort_unstable();
     match list.windows(2).find(|two| two[0] == two[1]) {
         Some(two) => Err(format!("{} is there twice", two[0])),

@@ -128,7 +128,13 @@ pub fn load_and_report(
 /// Prints all that is wrong with a scene.
 pub fn refused(report: &Report, terminal: &Terminal) -> Failure {
     report.diagnostics.iter().for_each(|diagnostic| terminal.diagnostic(diagnostic));
-    Failure::new(report.exit_code(), "")
+    let mut errors = report.errors();
+    let first = errors.next().map_or(String::new(), |error| error.headline());
+    let said = match errors.count() {
+        0 => first,
+        more => format!("{first}; and {more} more"),
+    };
+    Failure::said(report.exit_code(), said)
 }
 
 /// Every stage that uses threads uses this many, writing included.

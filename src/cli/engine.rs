@@ -58,10 +58,23 @@ pub struct Task {
 /// an array of some of the tasks, as for those that failed, means the same parts.
 pub fn find(of: Option<u32>, variable: impl Fn(&str) -> Option<String>) -> Result<Task, String> {
     let number = |name: &str| variable(name).and_then(|text| text.trim().parse::<u32>().ok());
-    let Some((engine, index)) = ENGINES.iter().find_map(|e| Some((e, number(e.index)?))) else {
-        let names = ENGINES.map(|engine| engine.index).join(", ");
-        return Err(format!("--shard auto: no engine says which part this is: none of {names} is a number"));
+    let mut engines = ENGINES.iter().filter_map(|e| Some((e, number(e.index)?)));
+    let Some((engine, index)) = engines.next() else {
+        let said = ENGINES.iter().find_map(|e| Some((e.index, variable(e.index)?)));
+        return Err(match said {
+            Some((name, text)) => format!("--shard auto: {name} is `{}`, which is no number", text.trim()),
+            None => {
+                let names = ENGINES.map(|engine| engine.index).join(", ");
+                format!("--shard auto: no engine says which part this is: none of {names} is set")
+            }
+        });
     };
+    if let Some((other, second)) = engines.find(|(_, second)| *second != index) {
+        return Err(format!(
+            "--shard auto: {} is {index} and {} is {second}: say which part this is with --shard I/N",
+            engine.index, other.index
+        ));
+    }
     let (name, usual) = (engine.name, engine.first.1);
     let of_engine = |count: &Count| match count {
         Count::Of(count) => Some((usual, number(count)?)),
@@ -121,7 +134,10 @@ mod tests {
         assert!(found(Some(2), &[]).is_err_and(|e| e.contains("SLURM_ARRAY_TASK_ID")));
         assert!(found(None, &[("JOB_COMPLETION_INDEX", "2")]).is_err_and(|e| e.contains("--of")));
         assert!(found(Some(2), &[("JOB_COMPLETION_INDEX", "2")]).is_err_and(|e| e.contains("from 0 to 1")));
-        assert!(found(Some(2), &[("SGE_TASK_ID", "undefined")]).is_err());
+        let said = found(Some(2), &[("SGE_TASK_ID", "undefined")]);
+        assert!(said.is_err_and(|e| e.contains("SGE_TASK_ID is `undefined`")));
+        let two = [("SLURM_ARRAY_TASK_ID", "1"), ("HQ_TASK_ID", "2")];
+        assert!(found(Some(4), &two).is_err_and(|e| e.contains("HQ_TASK_ID is 2")));
         assert!(found(Some(2), &[("LSB_JOBINDEX", "0")]).is_err());
     }
 }

@@ -23,11 +23,25 @@ pub const STOPPED: u8 = 6;
 pub struct Failure {
     pub code: u8,
     pub message: String,
+    /// For programs: all of the reason, where a part of it has been said already.
+    pub said: Option<String>,
 }
 
 impl Failure {
     pub fn new(code: u8, message: impl Into<String>) -> Self {
-        Failure { code, message: message.into() }
+        Failure { code, message: message.into(), said: None }
+    }
+
+    /// All has been said; programs are told `said`.
+    pub fn said(code: u8, said: String) -> Self {
+        Failure { code, message: String::new(), said: Some(said) }
+    }
+
+    /// The reason, on one line.
+    pub fn reason(&self) -> String {
+        let text = self.said.as_ref().unwrap_or(&self.message);
+        let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        if line.is_empty() { "the scene cannot be rendered".to_owned() } else { line }
     }
 
     /// `path` could not be written.

@@ -12,6 +12,7 @@ use super::farm_args::{Engine, FarmArgs};
 use super::progress::{Reporter, duration};
 use super::report::{self, Terminal};
 use super::summary::mebibytes;
+use super::target::targets_of;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::output::atomic;
@@ -57,6 +58,13 @@ pub fn run(args: &FarmArgs, terminal: &Terminal) -> Result<(), Failure> {
     if args.scene == Path::new("-") {
         return Err(Failure::new(USAGE, "a scene that many machines read must be a file"));
     }
+    if args.output.iter().any(|path| path == Path::new("-")) {
+        return Err(Failure::new(
+            USAGE,
+            "a job's image goes to a file, not to standard output: `-o image.exr`",
+        ));
+    }
+    targets_of(&args.output, super::args::ImageFormat::default())?;
     let (job, planned) = job(args, terminal)?;
     let sheets = match args.engine {
         Engine::Slurm => slurm::sheets(&job),

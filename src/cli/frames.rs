@@ -102,6 +102,7 @@ pub fn each(
 ) -> Result<(), Failure> {
     let of = frames.len();
     let mut failed: Vec<(u32, u8)> = Vec::new();
+    let mut first = String::new();
     for (index, &frame) in frames.iter().enumerate() {
         let outcome = render(&one(args, frame), Place { frame, index, of });
         let Err(failure) = outcome else { continue };
@@ -109,6 +110,9 @@ pub fn each(
             return Err(failure);
         }
         let frame = frame.unwrap_or_default();
+        if failed.is_empty() {
+            first = failure.reason();
+        }
         if !failure.message.is_empty() {
             terminal.error(&format!("frame {frame}: {}", failure.message));
         }
@@ -118,7 +122,10 @@ pub fn each(
     let Some(code) = failed.iter().map(|(_, code)| *code).min() else { return Ok(()) };
     let list: Vec<String> = failed.iter().map(|(frame, _)| frame.to_string()).collect();
     let message = format!("{} of {of} frames failed: {}", list.len(), list.join(", "));
-    Err(Failure::new(code, message))
+    Err(Failure {
+        said: Some(format!("{message}; the first of them: {first}")),
+        ..Failure::new(code, message)
+    })
 }
 
 /// Where a frame stands among those that were asked for.

@@ -80,9 +80,8 @@ pub fn note(place: Place, mut fields: Value) -> String {
 }
 
 /// Why a task failed, on one line.
-pub fn openjd_fail(message: &str) -> String {
-    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
-    format!("openjd_fail: {}\n", if line.is_empty() { "the scene cannot be rendered" } else { &line })
+pub fn openjd_fail(reason: &str) -> String {
+    format!("openjd_fail: {reason}\n")
 }
 
 #[cfg(test)]
@@ -123,6 +122,6 @@ mod tests {
             state(0, 3, "trace", 0.5).openjd_status(),
             "openjd_status: frame 3: trace, error 2.10 %\n"
         );
-        assert_eq!(openjd_fail("a\n  b"), "openjd_fail: a b\n");
+        assert_eq!(openjd_fail("a b"), "openjd_fail: a b\n");
     }
 }

@@ -8,7 +8,7 @@ use super::target::{Staged, same_file, targets_of};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::output::atomic;
-use terrarium::render::{MergeError, Merged, merge, shard_list};
+use terrarium::render::{MergeError, Merged, PartialError, merge, shards_numbered};
 
 pub fn run(args: &MergeArgs, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
@@ -33,11 +33,14 @@ pub fn run(args: &MergeArgs, terminal: &Terminal) -> Result<(), Failure> {
 }
 
 fn failure(error: MergeError) -> Failure {
-    let code = match &error {
-        MergeError::Unreadable(..) => UNREADABLE,
-        MergeError::Invalid(_) => USAGE,
-    };
-    Failure::new(code, error.to_string())
+    let hint = "; parts are what `render --shard`, `--shards` or a job of `farm` writes";
+    match &error {
+        MergeError::Unreadable(_, PartialError::Other(_)) => {
+            Failure::new(UNREADABLE, format!("{error}{hint}"))
+        }
+        MergeError::Unreadable(..) => Failure::new(UNREADABLE, error.to_string()),
+        MergeError::Invalid(_) => Failure::new(USAGE, error.to_string()),
+    }
 }
 
 /// The files that are named, and those in folders that are named as partial images are.
@@ -89,6 +92,10 @@ fn say(args: &MergeArgs, merged: &Merged, began: Instant, terminal: &Terminal) {
         duration(began.elapsed().as_secs_f64())
     ));
     if !merged.missing.is_empty() {
-        terminal.warning(&format!("without shards {}", shard_list(&merged.missing)));
+        terminal.warning(&format!(
+            "of {} shards, {} not there: this is the image of the rest",
+            merged.of,
+            shards_numbered(&merged.missing)
+        ));
     }
 }

@@ -75,6 +75,7 @@ fn plan(scene: &Path, args: &PlanArgs, terminal: &Terminal) -> Result<serde_json
     let reporter = Reporter::new(args.progress, args.quiet, terminal);
     let planned = render::plan(&loaded, &options, &reporter);
     let planned = planned.map_err(|error| super::render::unbuildable(error, &loaded, terminal))?;
+    planned.warnings.iter().for_each(|warning| terminal.warning(warning));
     let measured =
         if args.measure { Some(measure::table(&loaded, &options, &planned, &reporter)?) } else { None };
     let accuracy = if args.accuracy { Some(expected(&loaded, &options, &planned, &reporter)?) } else { None };

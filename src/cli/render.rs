@@ -33,9 +33,17 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     set_threads(args.work.threads)?;
     let outcome = frames::asked(args)
         .and_then(|asked| frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal)));
-    if let (Err(failure), ProgressChoice::Openjd) = (&outcome, args.progress) {
-        // who reads them may have gone; the exit code stays
-        drop(report::print(&machine::openjd_fail(&failure.message)));
+    if let Err(failure) = &outcome {
+        match args.progress {
+            // who reads them may have gone; the exit code stays
+            ProgressChoice::Openjd => drop(report::print(&machine::openjd_fail(&failure.reason()))),
+            ProgressChoice::Json => {
+                let note =
+                    serde_json::json!({"note": "failed", "code": failure.code, "reason": failure.reason()});
+                terminal.say(&machine::note(Place::default(), note));
+            }
+            _ => {}
+        }
     }
     outcome
 }
@@ -162,7 +170,10 @@ fn part_target(args: &RenderArgs, shards: &Shards) -> Result<Target, Failure> {
     if let Some(folder) = &args.batch.out_dir {
         std::fs::create_dir_all(folder)
             .map_err(|error| Failure::writing(&folder.display().to_string(), error))?;
-        return Ok(Target::File(folder.join(args.batch.name(&args.scene, shards)), Format::Exr));
+        return Ok(Target::File(
+            folder.join(args.batch.name(&args.scene, args.reading.frame, shards)),
+            Format::Exr,
+        ));
     }
     match targets(args)?.as_slice() {
         [Target::File(path, Format::Exr)] => Ok(Target::File(path.clone(), Format::Exr)),

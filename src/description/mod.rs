@@ -25,6 +25,7 @@ mod read;
 mod scene;
 mod schema;
 mod settings;
+mod simple;
 mod source;
 mod suggest;
 mod terms;

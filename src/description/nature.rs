@@ -34,7 +34,8 @@ impl Material {
         !self.transmission.is_zero() && !self.is_nothing()
     }
 
-    fn is_nothing(&self) -> bool {
+    /// Whether light passes through it as through the vacuum.
+    pub(super) fn is_nothing(&self) -> bool {
         !self.bends()
             && self.transmission == Source::Constant(Rgb::grey(1.0))
             && self.reflection.is_zero()

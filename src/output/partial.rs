@@ -2,7 +2,8 @@
 //!
 //! Two parts. The first is the picture, as any viewer shows it; its provenance says under `partial` what of the
 //! image is there. The second, `sums`, has one channel of unsigned 32-bit integers, `word`: the sums, row after
-//! row, the last row filled up with zeros. They are not compressed: most of their bits are chance.
+//! row, the last row filled up with zeros. They are not compressed: most of their bits are chance. The picture's
+//! attribute `terrariumChecksum` is that of the provenance, as [`checksum`] makes it of the text's bytes.
 
 use super::exr::{ATTRIBUTE, picture, save, text};
 use super::{Image, OutputError, Provenance};
@@ -30,6 +31,9 @@ const BUFFER: usize = 1 << 20;
 const PICTURE: &str = "picture";
 const SUMS: &str = "sums";
 
+/// The attribute with the checksum of the provenance.
+const SEAL: &str = "terrariumChecksum";
+
 /// Why a file is no partial image.
 #[derive(Debug, thiserror::Error)]
 pub enum PartialError {
@@ -51,6 +55,11 @@ pub fn write(
 ) -> Result<(), OutputError> {
     let (mut first, _) = picture(image, provenance)?;
     first.attributes.layer_name = Some(text(PICTURE));
+    let own = &mut first.attributes.other;
+    if let Some(AttributeValue::Text(said)) = own.get(&text(ATTRIBUTE)) {
+        let seal = AttributeValue::Text(text(&seal(&said.to_string())));
+        own.insert(text(SEAL), seal);
+    }
     let rows = words.len().div_ceil(ROW).max(1);
     words.resize(rows * ROW, 0);
     let encoding = Encoding {
@@ -69,17 +78,23 @@ pub fn read(mut source: impl Read + Seek) -> Result<(Provenance, Vec<u32>), Part
     source.rewind()?;
     let reader = exr::block::read(BufReader::with_capacity(BUFFER, source), false).map_err(unreadable)?;
     let headers = reader.headers();
-    let provenance = headers.iter().find_map(|part| part.own_attributes.other.get(&text(ATTRIBUTE)));
-    let Some(AttributeValue::Text(provenance)) = provenance else {
+    let said = |name: &str| {
+        let found = headers.iter().find_map(|part| part.own_attributes.other.get(&text(name)))?;
+        found.to_text().ok().map(|text| text.to_string())
+    };
+    let Some(provenance) = said(ATTRIBUTE) else {
         return Err(PartialError::Other("an EXR file of another program".to_owned()));
     };
-    let provenance: Provenance = serde_json::from_str(&provenance.to_string()).map_err(|error| {
-        PartialError::Other(format!("an EXR file with an attribute `{ATTRIBUTE}` of another kind: {error}"))
-    })?;
     let named = |part: &Header| part.own_attributes.layer_name.as_ref().is_some_and(|name| *name == *SUMS);
     let Some((sums, rows)) = headers.iter().enumerate().find(|(_, part)| named(part)).and_then(rows) else {
         return Err(PartialError::Other("an image without its sums: no part of one".to_owned()));
     };
+    if said(SEAL) != Some(seal(&provenance)) {
+        return Err(PartialError::Damaged("what it says of itself is not what was written".to_owned()));
+    }
+    let provenance: Provenance = serde_json::from_str(&provenance).map_err(|error| {
+        PartialError::Other(format!("an EXR file with an attribute `{ATTRIBUTE}` of another kind: {error}"))
+    })?;
     if rows as u64 * ROW_BYTES as u64 > length {
         return Err(PartialError::Damaged("sums are missing".to_owned()));
     }
@@ -122,6 +137,12 @@ fn unreadable(error: exr::error::Error) -> PartialError {
         exr::error::Error::Io(error) => PartialError::Io(error),
         other => PartialError::Other(format!("no OpenEXR file that can be read: {other}")),
     }
+}
+
+/// The checksum of a text, in hexadecimal.
+fn seal(text: &str) -> String {
+    let words: Vec<u32> = text.bytes().map(u32::from).collect();
+    format!("{:016x}", checksum(&words))
 }
 
 /// A number that changes with any word: to find damage, not malice. That of the rows' numbers.

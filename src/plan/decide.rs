@@ -36,13 +36,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
                 }),
                 "no reachable material that transmits absorbs",
             ),
-            Effect::Dispersion => Decision::of(
-                effect,
-                who(&uses, ["disperses", "disperse"], |m| {
-                    (m.disperses() && !m.transmission.is_zero()).then(String::new)
-                }),
-                "no reachable material that transmits disperses",
-            ),
+            Effect::Dispersion => dispersion(&uses),
             Effect::Textures => Decision::of(
                 effect,
                 who(&uses, ["names", "name"], texture_names),
@@ -51,7 +45,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::NormalMaps => Decision::of(
                 effect,
                 who(&uses, ["names", "name"], |m| {
-                    let map = m.normal_map.as_ref().filter(|map| map.strength != 0.0)?;
+                    let map = m.normal_map.as_ref()?;
                     Some(format!(" `{}`", map.texture))
                 }),
                 "no reachable material names one",
@@ -59,7 +53,7 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
             Effect::BumpMaps => Decision::of(
                 effect,
                 who(&uses, ["names", "name"], |m| {
-                    let map = m.bump_map.as_ref().filter(|map| map.height_m != 0.0)?;
+                    let map = m.bump_map.as_ref()?;
                     Some(format!(" `{}`", map.texture))
                 }),
                 "no reachable material names one",
@@ -103,6 +97,22 @@ pub(super) fn who(
     (!told.is_empty()).then(|| told.join("; ") + &rest)
 }
 
+fn dispersion(uses: &[Use]) -> Decision {
+    let disperses = |m: &Material| (m.disperses() && !m.transmission.is_zero()).then(String::new);
+    if let Some(reason) = who(uses, ["disperses", "disperse"], disperses) {
+        return Decision::on(Effect::Dispersion, reason);
+    }
+    let spreads_nothing = |m: &Material| {
+        let said = m.dispersion.is_some() && m.index() == 1.0 && !m.transmission.is_zero();
+        said.then(|| " ior 1, of which an Abbe number spreads nothing".to_owned())
+    };
+    let reason = who(uses, ["has", "have"], spreads_nothing);
+    Decision::off(
+        Effect::Dispersion,
+        reason.unwrap_or_else(|| "no reachable material that transmits disperses".to_owned()),
+    )
+}
+
 fn refraction(uses: &[Use]) -> Decision {
     let real =
         who(uses, ["transmits", "transmit"], |m| m.is_interface().then(|| format!(", ior {}", m.index())));
@@ -129,10 +139,14 @@ fn nested_media(uses: &[Use]) -> Decision {
         [] => Decision::off(Effect::NestedMedia, "no reachable material transmits"),
         many => {
             let verb = if many.len() == 1 { "transmits" } else { "transmit" };
-            let what =
-                if uses.iter().any(|u| u.material.is_interface()) { "" } else { ", all as the vacuum does" };
-            let reason = format!("{} {verb}{what}: overlaps are looked for when they are placed", few(many));
-            Decision { effect: Effect::NestedMedia, on: what.is_empty(), reason, cause: Cause::Scene }
+            let on = uses.iter().any(|u| u.material.is_interface());
+            let what = if on {
+                ": overlaps are looked for when they are placed"
+            } else {
+                ", all as the vacuum does"
+            };
+            let reason = format!("{} {verb}{what}", few(many));
+            Decision { effect: Effect::NestedMedia, on, reason, cause: Cause::Scene }
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Some *carry* light: left out, their light is missing and nothing else changes. The others *shape* the
 //! light that those carry.
 
+use crate::description::question;
 use serde::{Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
@@ -137,15 +138,11 @@ impl FromStr for Effect {
     fn from_str(key: &str) -> Result<Effect, String> {
         let folded = key.trim().to_lowercase().replace(['-', ' '], "_");
         Effect::ALL.into_iter().find(|effect| effect.key() == folded).ok_or_else(|| {
-            let nearest = Effect::ALL
-                .map(Effect::key)
-                .into_iter()
-                .min_by_key(|k| strsim::damerau_levenshtein(k, &folded));
-            format!(
-                "no effect is named `{key}`; did you mean `{}`? All are: {}",
-                nearest.unwrap_or_default(),
-                Effect::ALL.map(Effect::key).join(", ")
-            )
+            // no option takes it
+            let all: Vec<&str> =
+                Effect::ALL.into_iter().filter(|e| *e != Effect::NestedMedia).map(Effect::key).collect();
+            let near = question(&folded, all.iter().copied());
+            format!("no effect is named `{key}`{near}; all are: {}", all.join(", "))
         })
     }
 }

@@ -83,10 +83,11 @@ impl Plan {
     /// Overrides that contradict each other, or ask for what the scene cannot have.
     pub fn new(scene: &Scene, request: &Request) -> Result<Plan, Refused> {
         let overrides = request.overrides.clone();
-        let own = decide::decide(scene);
+        let simple = scene.simplified();
+        let own = decide::decide(&simple);
         let notes = overrides.check(&own)?;
         let carried = overrides.carried(scene);
-        let scene = &*overrides::edited(scene, &overrides, &carried);
+        let scene = &*overrides::edited(&simple, &overrides, &carried);
         let decisions =
             if overrides.is_empty() { own } else { overrides.decide(&own, &decide::decide(scene), &carried) };
         let until = Until::of(scene, request.until);
@@ -130,9 +131,15 @@ impl Plan {
         })
     }
 
-    /// The scene that is rendered: the plan's own with the overrides that can be said in a scene.
+    /// The scene that is rendered: without what changes nothing, and with the overrides that can be said in
+    /// a scene.
     pub fn edited<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
-        overrides::edited(scene, &self.overrides, &self.carried)
+        match scene.simplified() {
+            Cow::Borrowed(scene) => overrides::edited(scene, &self.overrides, &self.carried),
+            Cow::Owned(scene) => {
+                Cow::Owned(overrides::edited(&scene, &self.overrides, &self.carried).into_owned())
+            }
+        }
     }
 
     pub fn is_on(&self, effect: Effect) -> bool {

@@ -38,7 +38,10 @@ impl Overrides {
         Unread {
             normal_maps: self.leaves_out(Effect::NormalMaps),
             bump_maps: self.leaves_out(Effect::BumpMaps),
-            environment: self.leaves_out(Effect::Environment),
+            // whether there is indirect light, the scene has to tell
+            environment: !Carried::new(self.only.as_deref(), &self.without, true)
+                .anywhere(Effect::Environment)
+                || self.leaves_out(Effect::Environment),
         }
     }
 
@@ -64,8 +67,12 @@ impl Overrides {
             let carriers: Vec<&str> =
                 Effect::ALL.into_iter().filter(|e| e.carries_light()).map(Effect::key).collect();
             let (key, list) = (shaping.key(), carriers.join(", "));
+            let instead = match shaping {
+                Effect::NestedMedia => "it is always there".to_owned(),
+                _ => format!("leave it out by --without {key}"),
+            };
             return refuse(format!(
-                "--only takes effects that carry light ({list}); {key} shapes it: leave it out by --without {key}"
+                "--only takes effects that carry light ({list}); {key} shapes it: {instead}"
             ));
         }
         if let Some(both) = self.with.iter().find(|e| self.leaves_out(**e)) {
@@ -93,9 +100,9 @@ impl Overrides {
         let idle = |e: &&Effect| decisions.iter().any(|d| d.effect == **e && !d.on);
         let reason = |e: &Effect| decisions.iter().find(|d| d.effect == *e).map_or("", |d| &d.reason);
         let left = self.without.iter().filter(idle);
-        let left = left.map(|e| format!("--without {} leaves out nothing: off: {}", e.key(), reason(e)));
+        let left = left.map(|e| format!("--without {} leaves out nothing: {}", e.key(), reason(e)));
         let named = self.only.iter().flatten().filter(idle).filter(|e| !self.with.contains(e));
-        let named = named.map(|e| format!("--only {} shows nothing of it: off: {}", e.key(), reason(e)));
+        let named = named.map(|e| format!("--only {} shows nothing of it: {}", e.key(), reason(e)));
         Ok(left.chain(named).collect())
     }
 
@@ -123,7 +130,7 @@ impl Overrides {
                     return over(
                         effect,
                         false,
-                        "no lamp and no sky is looked at from any surface".to_owned(),
+                        format!("with `{self}` no surface looks for a lamp or a sky"),
                     );
                 }
                 if effect == Effect::SoftShadows && edited.on && self.leaves_out(Effect::Shadows) {
@@ -138,7 +145,8 @@ impl Overrides {
     fn only(&self, own: &Decision, edited: &Decision, carried: &Carried) -> Decision {
         let effect = own.effect;
         let Some(only) = self.only.as_ref().filter(|_| effect.carries_light() && own.on) else {
-            return edited.clone();
+            // what the scene lacks is off for its own reason, not for what an edit took away
+            return if own.on { edited.clone() } else { own.clone() };
         };
         let set = super::Carriers::of(effect);
         if carried.first.any(set) {

@@ -13,7 +13,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// Of the form of partial images; raised with every change of it.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// What all parts of one image have in common, beside its provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,6 +100,34 @@ impl Form {
             exposure_ev: shown.0,
             png_bits: shown.1,
         }
+    }
+
+    /// How this differs from another form of the same scene and passes.
+    fn other_than(&self, here: &Form) -> Option<String> {
+        if self == here {
+            return None;
+        }
+        let window = |Window { x0, y0, x1, y1 }: Window| format!("{x0},{y0},{x1},{y1}");
+        let layers = |form: &Form| if form.aovs.is_empty() { "none".to_owned() } else { form.aovs.join(",") };
+        let by = |form: &Form| match form.by {
+            By::Passes => "passes".to_owned(),
+            By::Tiles => "tiles".to_owned(),
+        };
+        let each = [
+            ("the form of the file", self.format.to_string(), here.format.to_string()),
+            ("the width", self.width.to_string(), here.width.to_string()),
+            ("the height", self.height.to_string(), here.height.to_string()),
+            ("the crop", window(self.window), window(here.window)),
+            ("the side of a tile", self.tile.to_string(), here.tile.to_string()),
+            ("the list of further layers", layers(self), layers(here)),
+            ("what is divided", by(self), by(here)),
+            ("the PNG's exposure", self.exposure_ev.to_string(), here.exposure_ev.to_string()),
+            ("the PNG's bits", self.png_bits.to_string(), here.png_bits.to_string()),
+        ];
+        let told = each.iter().find(|(_, there, here)| there != here);
+        Some(told.map_or("the error is told of one alone".to_owned(), |(what, there, here)| {
+            format!("{what} is {there} there and {here} here")
+        }))
     }
 
     /// The layers of the picture.
@@ -255,16 +283,21 @@ impl Kept {
             return told("the range of passes", &text(a.passes), &text(b.passes));
         }
         if there.plan != here.plan {
-            return Some("effects are overridden in another way".to_owned());
+            let overrides = |plan: &str| {
+                let line = plan.lines().find_map(|line| line.strip_prefix("overrides: "));
+                line.map_or("none".to_owned(), |line| format!("`{line}`"))
+            };
+            let (a, b) = (overrides(&there.plan), overrides(&here.plan));
+            if a == b {
+                return Some("other effects are on, or for other reasons".to_owned());
+            }
+            return Some(format!("effects are overridden in another way: {a} there, {b} here"));
         }
         if a.of != b.of || self.part.shards != shards {
             let text = |list: &[u32], of: u32| format!("{list:?} of {of}");
             return told("the shard", &text(&self.part.shards, a.of), &text(shards, b.of));
         }
-        if a != b {
-            return Some("size, crop, tiles or layers are others".to_owned());
-        }
-        None
+        a.other_than(b)
     }
 }
 

@@ -118,9 +118,9 @@ impl Sum {
         let missing: Vec<u32> = (0..form.of).filter(|shard| !there(shard)).collect();
         if !missing.is_empty() && !allowed {
             return Err(MergeError::Invalid(format!(
-                "of {} shards, {} are not there; --allow-missing makes the image of those that are there",
+                "of {} shards, {} not there; --allow-missing makes the image of those that are there",
                 form.of,
-                list(&missing)
+                numbered(&missing)
             )));
         }
         let passes = self.film.most_passes();
@@ -144,6 +144,14 @@ impl Sum {
             of: form.of,
             passes,
         })
+    }
+}
+
+/// `number 2 is`, `numbers 0-1, 4 are`.
+pub fn numbered(numbers: &[u32]) -> String {
+    match numbers {
+        [one] => format!("number {one} is"),
+        many => format!("numbers {} are", list(many)),
     }
 }
 

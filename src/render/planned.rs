@@ -18,6 +18,8 @@ use serde::Serialize;
 pub struct Planned {
     #[serde(flatten)]
     pub survey: Survey,
+    /// What is doubtful about meshes and images.
+    pub warnings: Vec<String>,
     /// As many as there will be; with an error to be reached, at least.
     pub passes: u32,
     pub until: Until,
@@ -78,6 +80,7 @@ impl Planned {
         done.push(StageTime { name: "trace".to_owned(), seconds: cost.seconds });
         Planned {
             survey: ready.survey.clone(),
+            warnings: ready.warnings.clone(),
             passes,
             until: plan.until,
             seconds: clock.sum() + cost.seconds,

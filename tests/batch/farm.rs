@@ -20,6 +20,17 @@ fn written(lab: &Lab, engine: &str, more: &[&str]) -> Vec<(String, String)> {
     files
 }
 
+#[test]
+fn images_that_could_not_be_merged_to_are_refused_before_the_job_is_written() {
+    let lab = Lab::new(CAUSTIC);
+    for (output, reason) in [("a.jpg", "ends in .exr or .png"), ("-", "a job's image goes to a file")] {
+        let words = ["farm", "scene.ron", "--engine", "slurm", "--shards", "2", "-o", output];
+        let said = lab.fails(2, &words);
+        assert!(said.contains(reason), "{said}");
+        assert_eq!(lab.names(), ["scene.ron"]);
+    }
+}
+
 /// The engine is played: the variables that it sets, one task after the other, then the merge.
 #[test]
 fn the_scripts_for_slurm_render_and_merge() {

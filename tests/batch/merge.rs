@@ -58,6 +58,14 @@ fn shards_of_a_frame_merge_to_the_bits_of_that_frame() {
         assert!(in_parts(&lab, n, &more) == lab.bytes("whole.exr"), "{n} shards");
         assert!(lab.bytes("merged.png") == lab.bytes("whole.png"), "{n} shards");
     }
+    // into a folder, each frame's parts have names of their own
+    for i in 0..2 {
+        let shard = format!("{i}/2");
+        lab.render(&["--frames", "3-4", "--shard", &shard, "--passes", "8", "--out-dir", "parts"]);
+    }
+    let parts = [0, 1].map(|i| format!("parts/scene.0004.shard-000{i}-of-0002.exr"));
+    lab.done(&["merge", &parts[0], &parts[1], "-o", "merged.exr"]);
+    assert!(lab.bytes("merged.exr") == lab.bytes("whole.exr"));
     lab.render(&["--frame", "3", "--shard", "0/2", "--passes", "8", "-o", "a.exr"]);
     lab.render(&["--frame", "4", "--shard", "1/2", "--passes", "8", "-o", "b.exr"]);
     lab.fails(2, &["merge", "a.exr", "b.exr", "-o", "mixed.exr"]);
@@ -96,14 +104,17 @@ fn missing_doubled_and_foreign_parts_are_named() {
         lab.render(&["--passes", "8", "--shard", &format!("{i}/4"), "-o", &format!("{i}.exr")]);
     }
     let said = lab.fails(2, &["merge", "0.exr", "3.exr", "-o", "out.exr"]);
-    assert!(said.contains("of 4 shards, 1-2 are not there"), "{said}");
+    assert!(said.contains("of 4 shards, numbers 1-2 are not there"), "{said}");
     let said = lab.fails(2, &["merge", "0.exr", "1.exr", "2.exr", "3.exr", "1.exr", "-o", "out.exr"]);
     assert!(said.contains("shard 1 is there twice: in 1.exr and in 1.exr"), "{said}");
-    let foreign: [(&[&str], &str); 4] = [
+    let foreign: [(&[&str], &str); 7] = [
         (&["--passes", "8", "--seed", "3"], "the seed is 0 there and 3 here"),
         (&["--passes", "9"], "the range of passes"),
         (&["--passes", "8", "--set", "materials.glass.ior=1.4"], "the scene's hash"),
-        (&["--passes", "8", "--without", "shadows"], "effects"),
+        (&["--passes", "8", "--without", "shadows"], "effects are overridden in another way: "),
+        (&["--passes", "8", "--tile", "16"], "the side of a tile is "),
+        (&["--passes", "8", "--crop", "0,0,20,20"], "the crop is "),
+        (&["--passes", "8", "--aov", "normal"], "the list of further layers is "),
     ];
     for (more, difference) in foreign {
         lab.render(&[&["--shard", "1/4", "-o", "other.exr"], more].concat());
@@ -112,7 +123,12 @@ fn missing_doubled_and_foreign_parts_are_named() {
         assert!(said.contains("0.exr is of another render than other.exr") && said.contains(known), "{said}");
     }
     lab.render(&["--passes", "8", "-o", "whole.exr"]);
-    assert!(lab.fails(3, &["merge", "whole.exr", "-o", "out.exr"]).contains("without its sums"));
+    assert!(
+        lab.fails(3, &["merge", "whole.exr", "-o", "out.exr"])
+            .contains("without its sums: no part of one; parts are what")
+    );
+    let said = lab.fails(2, &["merge", "0.exr", "1.exr", "3.exr", "-o", "out.exr"]);
+    assert!(said.contains("of 4 shards, number 2 is not there"), "{said}");
     fs::write(lab.path("text.exr"), "no image").expect("written");
     assert!(lab.fails(3, &["merge", "text.exr", "-o", "out.exr"]).contains("text.exr"));
     assert!(lab.fails(2, &["merge", "0.exr", "-o", "0.exr"]).contains("can't be an output"));
@@ -129,7 +145,8 @@ fn parts_that_are_there_make_an_honest_image() {
     }
     let said = lab.done(&["merge", "0.exr", "1.exr", "-o", "half.exr", "--allow-missing"]);
     assert!(
-        said.contains("2 of 4 shards, 8 passes, error ") && said.contains("without shards 2-3"),
+        said.contains("2 of 4 shards, 8 passes, error ")
+            && said.contains("of 4 shards, numbers 2-3 are not there"),
         "{said}"
     );
     lab.render(&["--passes", "8", "-o", "first.exr"]);
@@ -149,6 +166,15 @@ fn a_damaged_part_is_refused() {
     other[at] ^= 4;
     fs::write(lab.path("part.exr"), other).expect("written");
     assert!(lab.fails(3, &["merge", "part.exr", "-o", "out.exr"]).contains("damaged"));
+    // what it says of itself: any byte of it
+    let place = sound.windows(12).position(|bytes| bytes == b"\"sceneHash\":").expect("it says its scene");
+    for at in (place..place + 1200).step_by(97) {
+        let mut other = sound.clone();
+        other[at] ^= 1;
+        fs::write(lab.path("part.exr"), other).expect("written");
+        let said = lab.fails(3, &["merge", "part.exr", "-o", "out.exr"]);
+        assert!(said.contains("damaged: what it says of itself"), "{at}: {said}");
+    }
     fs::write(lab.path("part.exr"), &sound[..sound.len() / 2]).expect("written");
     lab.fails(3, &["merge", "part.exr", "-o", "out.exr"]);
 }
@@ -164,6 +190,8 @@ fn shards_that_could_not_be_put_together_are_refused() {
         (&["--shard", "0/2", "-o", "x.png"], "one EXR file"),
         (&["--shard", "0/2", "-o", "x.exr", "-o", "y.exr"], "one EXR file"),
         (&["--of", "2", "-o", "x.exr"], "--of goes with"),
+        (&["--shard", "0/4", "--of", "5", "-o", "x.exr"], "--of says another number"),
+        (&["--shard", "1/4000000000", "-o", "x.exr"], "1048576 parts at most"),
     ] {
         let said = lab.fails(2, &[&["render", "scene.ron", "--progress", "none"], words].concat());
         assert!(said.contains(reason), "{words:?}: {said}");

@@ -53,4 +53,15 @@ pub const CASES: &[super::Case] = &[
         ],
     ),
     (r#"lights: { "l": lamp(position: (0, 0, 0)) }"#, &["2:16: error: lights.l: there is no `lamp` here"]),
+    (
+        r#"lights: { "l": point(position: (0, 3, 0), intensity: 9, samples: 4) }"#,
+        &["2:57: error: lights.l.point: there is no field `samples` here"],
+    ),
+    (
+        r#"background: 1, lights: { "l": environment(map: constant(1), turn_deg: 30) }"#,
+        &[
+            "2:13: warning: background: `background` does nothing: the environment `l` is seen in its place",
+            "2:71: warning: lights.l.environment.turn_deg: `turn_deg` does nothing: this map is the same all around",
+        ],
+    ),
 ];

@@ -89,6 +89,30 @@ pub const CASES: &[super::Case] = &[
         &["2:44: warning: materials.m.dispersion: `dispersion` does nothing where `transmission` is 0"],
     ),
     (
+        r#"materials: { "m": (diffuse: 0.5, ior: 1.4, priority: 2, shininess: 30) }"#,
+        &[
+            "2:39: warning: materials.m.ior: `ior` does nothing where `transmission` is 0",
+            "2:54: warning: materials.m.priority: `priority` does nothing where `transmission` is 0",
+            "2:68: warning: materials.m.shininess: `shininess` does nothing where `specular` is 0",
+        ],
+    ),
+    (
+        r#"animation: (frames: 2, keys: { "materials.m.transmission": linear([(frame: 1, value: 0), (frame: 2, value: 1)]) }), materials: { "m": (transmission: 0, ior: 1.4) }"#,
+        &[],
+    ),
+    (
+        r#"materials: { "m": (transmission: 1, ior: 1, dispersion: abbe(30)) }"#,
+        &[
+            "2:62: warning: materials.m.dispersion.abbe: an Abbe number does nothing where `ior` is 1: it spreads `ior` − 1; `cauchy` gives the spread itself",
+        ],
+    ),
+    (
+        r#"textures: { "t": wood(a: 1, b: 1, ring_m: 1) }, materials: { "m": (diffuse: 0.5, bump_map: (texture: "t", height_m: 1)) }"#,
+        &[
+            "2:102: warning: materials.m.bump_map.texture: this bump map does nothing: its texture is of one colour",
+        ],
+    ),
+    (
         r#"materials: { "m": (diffuse: texture("wood")) }"#,
         &["2:37: error: materials.m.diffuse.texture: no texture `wood`"],
     ),

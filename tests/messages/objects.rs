@@ -134,4 +134,11 @@ pub const CASES: &[super::Case] = &[
             "2:69: error: objects.0.transform.0.rotate.axis: a direction this long or short cannot be told: its square leaves the range of numbers",
         ],
     ),
+    (
+        r#"materials: { "g": (transmission: 1) }, definitions: { "d": (shape: cone(caps: false)) }, objects: [(shape: group(objects: [(shape: instance(of: "d")), (shape: box())]), material: "g")]"#,
+        &[
+            "2:72: warning: definitions.d.shape.cone: the material `g` transmits, and this shape has no inside: how far light goes through it, and where it leaves, is not defined; give it `caps`",
+        ],
+    ),
+    (r#"materials: { "g": (transmission: 1, ior: 1) }, objects: [(shape: quad(), material: "g")]"#, &[]),
 ];

@@ -99,6 +99,13 @@ fn files_of_what_is_left_out_may_be_missing() {
         assert!(said.contains("warning: textures.bricks.image.path"), "{said}");
         assert!(said.contains("warning: lights.sky.environment.map.image.path"), "{said}");
     }
+    // the sky is not what is shown
+    let only = ["plan", "scene.ron", "--without", "normal_maps", "--only", "direct"];
+    let (code, _, said) = program(&folder, &only);
+    assert!(code == Some(0) && said.contains("warning: lights.sky.environment.map.image.path"), "{said}");
+    let (code, ..) =
+        program(&folder, &["plan", "scene.ron", "--without", "normal_maps", "--only", "reflection"]);
+    assert_eq!(code, Some(3));
 }
 
 /// What only the placed objects tell of an override is told too.

@@ -1,6 +1,6 @@
 //! What is off is free: its stages do not run, its files are not read, its memory is not held.
 
-use super::lab::{BALL, LAMP, render, scene, shot, without};
+use super::lab::{BALL, LAMP, own_plan, render, scene, shot, without};
 use crate::render::shot::Picture;
 use terrarium::plan::{Effect, Overrides};
 
@@ -49,6 +49,32 @@ fn maps_that_are_left_out_or_unreachable_are_not_read() {
     assert_eq!((mean.rendered.files.len(), mean.rendered.stats.memory.textures_bytes), (1, 0));
     let unreachable = render_in(folder.path(), &mapped(r#"diffuse: texture("there")"#, "matt"), &whole);
     assert!(unreachable.rendered.files.is_empty());
+}
+
+/// Settings that change nothing load and call for nothing, and the image is that of the scene without them.
+#[test]
+fn what_changes_nothing_is_not_read_and_calls_for_nothing() {
+    let folder = folder();
+    let whole = Overrides::default();
+    for (idle, plain) in [
+        (r#"diffuse: 0.5, normal_map: (texture: "there", strength: 0)"#, "diffuse: 0.5"),
+        (r#"diffuse: 0.5, bump_map: (texture: "there", height_m: 0)"#, "diffuse: 0.5"),
+        (r#"diffuse: texture(name: "there", scale: 0), reflection: 0.5"#, "reflection: 0.5"),
+        (r#"diffuse: 0.5, reflection: texture(name: "there", scale: 0)"#, "diffuse: 0.5"),
+        (r#"diffuse: 0.5, transmission: texture(name: "there", scale: 0), absorption: 2"#, "diffuse: 0.5"),
+        (r#"transmission: 1, ior: 1, normal_map: (texture: "there")"#, "transmission: 1, ior: 1"),
+    ] {
+        let (idle, plain) = (mapped(idle, "mapped"), mapped(plain, "mapped"));
+        let (a, b) = (render_in(folder.path(), &idle, &whole), render_in(folder.path(), &plain, &whole));
+        assert!(a.rendered.files.is_empty(), "{idle}");
+        assert_eq!(a.rendered.image, b.rendered.image, "{idle}");
+        let on = |text: &str| own_plan(text).decisions.iter().map(|d| d.on).collect::<Vec<_>>();
+        assert_eq!(on(&idle), on(&plain), "{idle}");
+        assert_eq!(a.rendered.stats.rays, b.rendered.stats.rays, "{idle}");
+    }
+    // and a file that is not there is no mistake
+    let missing = mapped(r#"diffuse: 0.5, normal_map: (texture: "missing", strength: 0)"#, "mapped");
+    assert!(render_in(folder.path(), &missing, &whole).rendered.files.is_empty());
 }
 
 #[test]

@@ -17,6 +17,7 @@ fn refused(overrides: &Overrides, expected: &str) {
 fn contradictions_and_the_impossible_are_refused_with_the_reason() {
     refused(&without(&[Effect::NestedMedia]), "nested_media can't be left out");
     refused(&only(&[Effect::Textures]), "leave it out by --without textures");
+    refused(&only(&[Effect::NestedMedia]), "nested_media shapes it: it is always there");
     refused(
         &Overrides { with: vec![Effect::Indirect], ..without(&[Effect::Indirect]) },
         "indirect is in --with and in --without",
@@ -41,10 +42,22 @@ fn what_is_on_already_is_not_added_and_what_is_off_already_is_noted() {
     let added = plan(&scene, &with(&[Effect::Caustics, Effect::Direct])).expect("both are on");
     assert_eq!(added.decisions, own_plan(&scene).decisions);
     let left = plan(&scene, &without(&[Effect::Textures])).expect("that is no mistake");
+    assert_eq!(left.notes, ["--without textures leaves out nothing: no reachable material names a texture"]);
+}
+
+/// What the scene lacks is off for its own reason, whatever the overrides take away beside it.
+#[test]
+fn the_reason_for_what_is_off_is_the_scenes_own() {
+    let sky = r#""sky": environment(map: constant(1))"#;
+    let alone = plan(&scene("", "", sky, BALL), &only(&[Effect::Direct])).expect("it carries light");
+    assert_eq!(decision(&alone, Effect::Direct).reason, "the sky is the only light");
+    let lamp = plan(&glassy(), &without(&[Effect::Direct])).expect("it may be left out");
     assert_eq!(
-        left.notes,
-        ["--without textures leaves out nothing: off: no reachable material names a texture"]
+        decision(&lamp, Effect::Shadows).reason,
+        "with `without direct` no surface looks for a lamp or a sky"
     );
+    let error = "nothing".parse::<Effect>().expect_err("no such effect");
+    assert!(!error.contains("nested_media") && !error.contains("did you mean"), "{error}");
 }
 
 #[test]

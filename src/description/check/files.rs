@@ -27,8 +27,9 @@ pub(super) fn check(c: &mut Checker, files: &[(String, Path)], unread: Unread) {
 
 /// The places of images that are not read.
 fn idle_images(c: &Checker, unread: Unread) -> Vec<Path> {
-    let used = used_materials(c.scene);
-    let materials = c.scene.materials.iter().filter(|(name, _)| used.contains(name));
+    let scene = c.scene.simplified();
+    let used = used_materials(&scene);
+    let materials = scene.materials.iter().filter(|(name, _)| used.contains(name));
     let read: HashSet<&str> = materials.flat_map(|(_, material)| read_by(material, unread)).collect();
     let textures = c.scene.textures.names().filter(|name| !read.contains(name)).map(Path::image_texture);
     let skies = c.scene.lights.names().filter(|_| unread.environment).map(Path::environment_image);

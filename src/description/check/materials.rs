@@ -3,7 +3,7 @@
 use super::{Checker, energy};
 use crate::description::suggest::{listed, question};
 use crate::description::tree::{Path, number};
-use crate::description::{Dispersion, Ior, Material, NAMED_IOR, Rgb, Source, Texture, TextureRef};
+use crate::description::{Dispersion, Ior, Material, NAMED_IOR, Source, Texture, TextureRef};
 
 pub(super) fn check(c: &mut Checker) {
     for (name, material) in c.scene.materials.iter() {
@@ -47,30 +47,13 @@ fn check_material(c: &mut Checker, path: &Path, material: &Material) {
         Some(Dispersion::Cauchy(b)) => {
             let place = path.key("dispersion").key("cauchy");
             c.within(&place, b, 0.0, 0.1);
-            if b == 0.0 {
-                c.warn(&place, "a dispersion of 0 does nothing");
-            }
         }
         None => {}
     }
-    if material.dispersion.is_some() && material.transmission.is_zero() {
-        let message = "`dispersion` does nothing where `transmission` is 0";
-        c.warn_about(&[&path.key("dispersion"), &path.key("transmission")], message);
-    }
     c.colour(&path.key("absorption"), &material.absorption);
-    if !material.absorption.is_zero() && material.transmission.is_zero() {
-        let message = "`absorption` does nothing where `transmission` is 0";
-        c.warn_about(&[&path.key("absorption"), &path.key("transmission")], message);
-    }
     if let Some(map) = &material.normal_map {
         let place = path.key("normal_map").key("strength");
         c.within(&place, map.strength, 0.0, 10.0);
-        if map.strength == 0.0 {
-            c.warn(&place, "a normal map of strength 0 does nothing");
-        }
-    }
-    if material.bump_map.as_ref().is_some_and(|map| map.height_m == 0.0) {
-        c.warn(&path.key("bump_map").key("height_m"), "a bump map of height 0 does nothing");
     }
     energy::check(c, path, material);
 }
@@ -98,21 +81,9 @@ fn weight(c: &mut Checker, path: &Path, source: &Source) {
 
 /// The largest value of a pattern, 0 for images.
 fn brightest(c: &Checker, reference: &TextureRef) -> f64 {
-    match c.scene.textures.get(&reference.name).and_then(colours) {
+    match c.scene.textures.get(&reference.name).and_then(Texture::colours) {
         Some((a, b)) => (0..3).map(|i| a.0[i].max(b.0[i]) * reference.scale.0[i]).fold(0.0, f64::max),
         None => 0.0,
-    }
-}
-
-fn colours(texture: &Texture) -> Option<(Rgb, Rgb)> {
-    match texture {
-        Texture::Image { .. } => None,
-        Texture::Checker { a, b, .. }
-        | Texture::Checker3d { a, b, .. }
-        | Texture::Noise { a, b, .. }
-        | Texture::Marble { a, b, .. }
-        | Texture::Wood { a, b, .. }
-        | Texture::Brick { a, b, .. } => Some((*a, *b)),
     }
 }
 
@@ -158,7 +129,7 @@ pub(super) fn textures(c: &mut Checker) {
                 "brick"
             }
         };
-        if let Some((a, b)) = colours(texture) {
+        if let Some((a, b)) = texture.colours() {
             c.colour(&at(tag, "a"), &a);
             c.colour(&at(tag, "b"), &b);
         }

@@ -3,9 +3,11 @@
 
 mod energy;
 mod files;
+mod idle;
 mod lights;
 mod materials;
 mod objects;
+mod open;
 mod photons;
 mod references;
 mod settings;
@@ -59,6 +61,8 @@ pub(super) fn check(
         // a wrong name makes another one unused: nothing that needs saying
         if sound && !checker.diagnostics.iter().any(|d| d.severity == Severity::Error) {
             usage::check(&mut checker);
+            open::check(&mut checker);
+            idle::check(&mut checker);
         }
     }
     checker.diagnostics
@@ -126,6 +130,17 @@ impl Checker<'_> {
 
     fn warn(&mut self, path: &Path, message: impl Into<String>) {
         self.report(Severity::Warning, Kind::Invalid, &[path], message.into(), None);
+    }
+
+    /// Whether an animation gives the value other values in other frames.
+    fn moves(&self, path: &Path) -> bool {
+        let path = path.to_string();
+        let keys = self.root.root.entry("animation").and_then(|animation| animation.node.entry("keys"));
+        keys.map_or(&[][..], |keys| keys.node.entries()).iter().any(|entry| {
+            let key = entry.key.as_str();
+            path.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+                || key.strip_prefix(&path).is_some_and(|rest| rest.starts_with('.'))
+        })
     }
 
     /// `low ≤ x ≤ high`.

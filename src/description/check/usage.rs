@@ -4,7 +4,7 @@
 use super::objects::list;
 use super::{Checker, Report, Severity};
 use crate::description::tree::Path;
-use crate::description::{IndirectBy, Object, Photons, Shape, uses};
+use crate::description::{EnvironmentMap, IndirectBy, Light, Object, Photons, Shape, uses};
 use std::collections::HashSet;
 
 pub(super) fn check(c: &mut Checker) {
@@ -23,6 +23,7 @@ pub(super) fn check(c: &mut Checker) {
         c.warn(&Path::default(), "the scene has no objects");
     }
     idle_settings(c);
+    idle_sky(c);
     let emits = scene.materials.iter().any(|(_, m)| !m.emission.is_zero());
     let lit = !scene.lights.is_empty() || !scene.ambient.is_zero() || !scene.background.is_zero();
     if !lit && !emits {
@@ -35,7 +36,8 @@ pub(super) fn check(c: &mut Checker) {
 
 /// Settings of light that this scene cannot have.
 fn idle_settings(c: &mut Checker) {
-    let uses = uses(c.scene);
+    let scene = c.scene.simplified();
+    let uses = uses(&scene);
     let any = |of: fn(&crate::description::Material) -> bool| uses.iter().any(|u| of(u.material));
     let lit = c.scene.lights.iter().any(|(_, light)| !light.is_black()) || any(|m| m.emits());
     let why = if !lit {
@@ -50,6 +52,10 @@ fn idle_settings(c: &mut Checker) {
         Some(why) if !c.scene.indirect.is_off() => {
             c.warn(&indirect, format!("`indirect` does nothing: {why}"))
         }
+        None if !c.scene.indirect.is_off() && !c.scene.ambient.is_zero() => {
+            let message = "`ambient` stands for `indirect`: with both, that light is counted twice";
+            c.warn_about(&[&Path::of("ambient"), &indirect], message);
+        }
         None if c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::default() => {
             c.warn(&by, "`indirect_by` does nothing without `indirect`");
         }
@@ -59,6 +65,23 @@ fn idle_settings(c: &mut Checker) {
     let by_photons = !c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::Paths;
     if photons && !by_photons && !any(|m| m.is_specular()) {
         c.warn(&Path::of("photons"), "`photons` do nothing: nothing placed reflects or transmits");
+    }
+}
+
+/// What a sky hides, and its turn where it looks the same from all sides.
+fn idle_sky(c: &mut Checker) {
+    let scene = c.scene;
+    for (name, light) in scene.lights.iter() {
+        let Light::Environment { map, turn_deg, visible, .. } = light else { continue };
+        let place = Path::of("lights").key(name).key("environment");
+        if *turn_deg != 0.0 && !matches!(map, EnvironmentMap::Image { .. }) {
+            c.warn(&place.key("turn_deg"), "`turn_deg` does nothing: this map is the same all around");
+        }
+        if *visible && !scene.background.is_zero() {
+            let background = Path::of("background");
+            let message = format!("`background` does nothing: the environment `{name}` is seen in its place");
+            c.warn_about(&[&background, &place], message);
+        }
     }
 }
 

@@ -208,7 +208,13 @@ impl Recovery<'_, '_> {
         // a name that is there already is suggested, but cannot be meant a second time
         let shown = near.or_else(|| nearest(name, known.iter().copied()));
         let message = format!("there is no field `{name}` here{}", question(name, shown));
-        let help = format!("known: {}", one_of(known));
+        let help = match (name, known.contains(&"intensity") || known.contains(&"irradiance")) {
+            ("samples" | "shadow_rays", true) => {
+                "this light has no extent: one shadow ray tells all; `sphere`, `quad` and `disk` have"
+                    .to_owned()
+            }
+            _ => format!("known: {}", one_of(known)),
+        };
         self.report(entries.get(index)?.key_span, path, message, Some(help));
         match near {
             Some(near) => entries[index].key = near.to_owned(),
