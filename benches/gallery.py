@@ -8,7 +8,8 @@ docs/gallery.md. The first comment line of a scene is its caption. A line of tha
     picture NAME: OPTIONS "CAPTION"
 
 asks for a further picture of the scene with options of `terrarium render`; `--layer LAYER` shows a
-layer instead of the picture, and is rendered with one pass. What a picture was made of, and what its
+layer instead of the picture, and is rendered with one pass. `picture: OPTIONS` gives the scene's own picture
+options. What a picture was made of, and what its
 render said, is kept in renders/gallery/pictures.json; only pictures whose scene, meshes, textures or
 options have changed since are rendered again, or all with --again. With --draft everything is rendered
 at half the size with an eighth of the passes to renders/draft/, always, and no page is written. With
@@ -73,7 +74,8 @@ def read(stem):
         if not line.startswith(("//", "#")):
             break
         comment.append(line.lstrip("/#").strip())
-    pictures = [Picture(file, stem, comment[0], "")]
+    own = next((line.split(":", 1)[1].strip() for line in comment if line.startswith("picture:")), "")
+    pictures = [Picture(file, stem, comment[0], own)]
     for line in comment:
         found = re.fullmatch(r'picture (\w+): (.*) "(.*)"', line)
         if found:
@@ -111,6 +113,11 @@ def fewer_passes(picture, draft, most):
     if not asked or not (draft or most):
         return []
     return ["--passes", str(max(4, int(asked[1]) // 8) if draft else min(most, int(asked[1])))]
+
+
+def without_error(options):
+    """A draft has its passes, whatever error they leave."""
+    return [word for at, word in enumerate(options) if word != "--error" and (not at or options[at - 1] != "--error")]
 
 
 def render(picture, options, out):
@@ -188,6 +195,8 @@ def main():
             if only and not {stem, picture.name} & set(only):
                 continue
             options = picture.options + smaller(size, draft) + fewer_passes(picture, draft, most)
+            if draft:
+                options = without_error(options)
             if picture.layer:
                 options += ["--passes", "1"]
             while options.count("--passes") > 1:

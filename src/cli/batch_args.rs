@@ -119,8 +119,8 @@ impl BatchArgs {
         }
     }
 
-    /// Checkpoints beside the first image that is a file.
-    pub fn checkpoints(&self, image: Option<&Path>) -> Result<Option<Checkpoint>, Failure> {
+    /// Checkpoints beside the first image that is a file. `skips`: a part that is there is not rendered again.
+    pub fn checkpoints(&self, image: Option<&Path>, skips: bool) -> Result<Option<Checkpoint>, Failure> {
         let (every, sparing) = match self.checkpoint {
             Interval::Never => (None, false),
             Interval::Auto => (Some(AUTO), true),
@@ -134,7 +134,7 @@ impl BatchArgs {
         };
         let mut path = image.as_os_str().to_owned();
         path.push(".checkpoint");
-        let part = self.is_divided().then(|| image.to_path_buf());
+        let part = (self.is_divided() && skips).then(|| image.to_path_buf());
         Ok(Some(Checkpoint { path: path.into(), every, sparing, resume: self.resume, part }))
     }
 }

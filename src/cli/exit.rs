@@ -64,6 +64,7 @@ impl From<RenderError> for Failure {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => USAGE,
             RenderError::Io(_) => UNREADABLE,
             RenderError::TooLarge(_) => REFUSED,
+            RenderError::Stopped => STOPPED,
             RenderError::Failed(_) | RenderError::Already => FAILED,
         };
         Failure::new(code, error.to_string())

@@ -9,10 +9,11 @@ mod slurm;
 use super::check::load_and_report;
 use super::exit::{Failure, USAGE};
 use super::farm_args::{Engine, FarmArgs};
+use super::frames;
 use super::progress::{Reporter, duration};
 use super::report::{self, Terminal};
 use super::summary::mebibytes;
-use super::target::targets_of;
+use super::target::{same_file, targets_of};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::output::atomic;
@@ -64,7 +65,17 @@ pub fn run(args: &FarmArgs, terminal: &Terminal) -> Result<(), Failure> {
             "a job's image goes to a file, not to standard output: `-o image.exr`",
         ));
     }
-    targets_of(&args.output, super::args::ImageFormat::default())?;
+    let outputs: Vec<PathBuf> = args.output.iter().map(|path| of_frame(path, args.reading.frame)).collect();
+    targets_of(&outputs, super::args::ImageFormat::default())?;
+    if let Some(file) =
+        outputs.iter().find(|path| same_file(path, &args.parts)).or(Some(&args.parts).filter(|p| p.is_file()))
+    {
+        let message = format!("--parts {}: parts go to a folder, and that is a file", file.display());
+        return Err(Failure::new(USAGE, message));
+    }
+    for path in &outputs {
+        atomic::probe(path).map_err(|error| Failure::writing(&path.display().to_string(), error))?;
+    }
     let (job, planned) = job(args, terminal)?;
     let sheets = match args.engine {
         Engine::Slurm => slurm::sheets(&job),
@@ -118,8 +129,8 @@ fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> 
             program: args.program.clone(),
             scene: place(&args.scene),
             render: again(args),
-            outputs: args.output.iter().map(|path| place(path)).collect(),
-            parts: place(&args.parts),
+            outputs: args.output.iter().map(|path| place(&of_frame(path, args.reading.frame))).collect(),
+            parts: place(&args.parts).join(own_folder(args)),
             folder,
             shards: args.shards,
             cpus,
@@ -131,6 +142,18 @@ fn job(args: &FarmArgs, terminal: &Terminal) -> Result<(Job, Planned), Failure> 
         },
         planned,
     ))
+}
+
+/// A folder of the job's own among the parts, so that its merge finds no others.
+fn own_folder(args: &FarmArgs) -> String {
+    let stem = args.scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
+    let frame = args.reading.frame.map_or(String::new(), |frame| format!(".{frame:04}"));
+    format!("{stem}{frame}.of-{:04}", args.shards)
+}
+
+/// An image's name, with the frame's number in its place.
+fn of_frame(path: &Path, frame: Option<u32>) -> PathBuf {
+    frame.map_or(path.to_path_buf(), |frame| frames::named(path, frame))
 }
 
 /// The options of the render, as they were typed.

@@ -4,6 +4,7 @@ use super::args::{Reading, RenderArgs};
 use super::check::load;
 use super::exit::{Failure, STOPPED, USAGE};
 use super::frame_args::Frames;
+use super::machine;
 use super::report::Terminal;
 use std::path::{Path, PathBuf};
 use terrarium::description::Unread;
@@ -60,7 +61,7 @@ fn one(args: &RenderArgs, frame: Option<u32>) -> RenderArgs {
 }
 
 /// A file's name with the frame in the place of `####` or `%04d`, whichever comes first.
-fn named(path: &Path, frame: u32) -> PathBuf {
+pub fn named(path: &Path, frame: u32) -> PathBuf {
     let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return path.to_owned() };
     let Some((before, width, after)) = place(name) else { return path.to_owned() };
     path.with_file_name(format!("{before}{frame:0width$}{after}"))
@@ -110,6 +111,7 @@ pub fn each(
             return Err(failure);
         }
         let frame = frame.unwrap_or_default();
+        machine::failed(args.progress, &failure, Place { frame: Some(frame), ..Place::default() }, terminal);
         if failed.is_empty() {
             first = failure.reason();
         }

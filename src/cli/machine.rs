@@ -4,7 +4,10 @@
 //! Both are versioned: `v` of JSON goes up when a key changes its meaning or goes; new keys may come.
 //! OpenJD's lines are those of its specification (How Jobs Are Run: stdout messages).
 
+use super::args::ProgressChoice;
+use super::exit::Failure;
 use super::frames::Place;
+use super::report::{self, Terminal};
 use serde_json::{Map, Value, json};
 
 /// The version of the JSON lines, and of the statistics.
@@ -79,8 +82,23 @@ pub fn note(place: Place, mut fields: Value) -> String {
     fields.to_string()
 }
 
+/// Tells a program why a render failed, or a frame of it.
+pub fn failed(progress: ProgressChoice, failure: &Failure, place: Place, terminal: &Terminal) {
+    match progress {
+        // who reads them may have gone; the exit code stays
+        ProgressChoice::Openjd if place.frame.is_none() => {
+            drop(report::print(&openjd_fail(&failure.reason())));
+        }
+        ProgressChoice::Json => {
+            let fields = json!({"note": "failed", "code": failure.code, "reason": failure.reason()});
+            terminal.say(&note(place, fields));
+        }
+        _ => {}
+    }
+}
+
 /// Why a task failed, on one line.
-pub fn openjd_fail(reason: &str) -> String {
+fn openjd_fail(reason: &str) -> String {
     format!("openjd_fail: {reason}\n")
 }
 

@@ -66,6 +66,9 @@ pub fn run() -> ExitCode {
             Failure::new(exit::FAILED, format!("the program broke off, which is a defect of its own: {what}"))
         }
     };
+    if let Command::Render(args) = &args.command {
+        machine::failed(args.progress, &failure, frames::Place::default(), &terminal);
+    }
     if !failure.message.is_empty() {
         terminal.error(&failure.message);
     }

@@ -9,6 +9,7 @@ use super::frames::Place;
 use super::machine::{self, DONE, State};
 use super::plan;
 use super::report::{self, Terminal};
+use super::signals;
 use super::viewer::Viewer;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
@@ -150,6 +151,11 @@ impl Reporter {
 impl Progress for Reporter {
     fn start(&self, stage: &str, total: u64, unit: &str) {
         self.finish();
+        match stage {
+            "build" => signals::tracing(false),
+            "trace" => signals::tracing(true),
+            _ => {}
+        }
         let bar = (self.form == Form::Bar).then(|| {
             let bar =
                 ProgressBar::with_draw_target(Some(total.max(1)), ProgressDrawTarget::stderr_with_hz(10));

@@ -4,7 +4,7 @@
 //! under temporary names, the dependency file, then the images' names. Whatever fails, a file that
 //! was there before stays as it was.
 
-use super::args::{ProgressChoice, RenderArgs};
+use super::args::RenderArgs;
 use super::check::{files, load_and_report, refused, set_threads};
 use super::exit::{Failure, STOPPED, USAGE};
 use super::finished::finished;
@@ -13,7 +13,7 @@ use super::machine;
 use super::progress::{Reporter, duration, short};
 use super::replay;
 use super::report::{self, Terminal};
-use super::signals::stop_on_signals;
+use super::signals::{halt, stop_on_signals};
 use super::summary::{Summary, worst};
 use super::target::{self, Target, png_settings, same_file, targets};
 use super::viewer::Viewer;
@@ -31,22 +31,17 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
         return replay::run(args, pixel, terminal);
     }
     set_threads(args.work.threads)?;
-    let outcome = frames::asked(args)
-        .and_then(|asked| frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal)));
-    if let Err(failure) = &outcome {
-        match args.progress {
-            // who reads them may have gone; the exit code stays
-            ProgressChoice::Openjd => drop(report::print(&machine::openjd_fail(&failure.reason()))),
-            ProgressChoice::Json => {
-                let note =
-                    serde_json::json!({"note": "failed", "code": failure.code, "reason": failure.reason()});
-                terminal.say(&machine::note(Place::default(), note));
-            }
-            _ => {}
-        }
-    }
-    outcome
+    let (progress, shown) = (args.progress, terminal.clone());
+    stop_on_signals(move || {
+        let failure = Failure::new(STOPPED, NOTHING_TRACED);
+        machine::failed(progress, &failure, Place::default(), &shown);
+        shown.error(&failure.message);
+    });
+    let asked = frames::asked(args)?;
+    frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal))
 }
+
+const NOTHING_TRACED: &str = "stopped before anything was traced: nothing is written";
 
 /// Renders the scene, or one frame of it.
 fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Failure> {
@@ -67,7 +62,9 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
         .telling_plan(!args.quiet)
         .of_frame(place)
         .shown_by(viewer.transpose()?);
-    let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path))?;
+    // Of several frames those that are there are left.
+    let skips = (place.frame.is_some() || args.batch.resume) && !args.several.again;
+    let checkpoint = args.batch.checkpoints(targets.iter().find_map(Target::path), skips)?;
     let begun = checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.path.exists());
     let goes_on = place.frame.is_some() || (args.batch.resume && !begun);
     let whole = shards.is_none() && args.batch.crop.is_none();
@@ -82,13 +79,14 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
 
     tell_of_checkpoint(checkpoint.as_ref(), terminal);
     let written_down = checkpoint.as_ref().map(|checkpoint| checkpoint.path.clone());
-    let options = Options { shards, checkpoint, halt: Some(stop_on_signals()), ..options(args, began) };
+    let options = Options { shards, checkpoint, halt: halt(), ..options(args, began) };
     let mut rendered = match render::render(&loaded, &options, &reporter) {
         Ok(rendered) => rendered,
         Err(RenderError::Already) => {
             already(args, terminal, &reporter);
             return Ok(());
         }
+        Err(RenderError::Stopped) => return Err(Failure::new(STOPPED, NOTHING_TRACED)),
         Err(error) => {
             reporter.finish();
             return Err(unbuildable(error, &loaded, terminal));
@@ -100,7 +98,9 @@ fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Fai
     if let (true, Some((part, _)), true) = (rendered.halted, &rendered.part, options.shards.is_some()) {
         return Err(stopped(part.done, written_down.as_deref(), "no partial image is written"));
     }
-    reporter.start("write", targets.len() as u64, "images");
+    if !rendered.halted {
+        reporter.start("write", targets.len() as u64, "images");
+    }
     let (mut staged, mut written) = (Vec::new(), Vec::new());
     for target in &targets {
         let settings = png_settings(&loaded.scene.image);

@@ -1,5 +1,6 @@
 //! Signals that ask the program to stop: the first lets it write what is there, a later one ends it at once.
 
+use super::exit::STOPPED;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::thread;
@@ -10,9 +11,14 @@ use terrarium::render::Halt;
 /// then the child's whole group, shells and engines do alike.
 const SAME_REQUEST: Duration = Duration::from_secs(1);
 
-/// From now on SIGINT and SIGTERM, and SIGUSR1 where engines send it before a time limit, set the flag.
-pub fn stop_on_signals() -> Halt {
-    static HALT: OnceLock<Halt> = OnceLock::new();
+static HALT: OnceLock<Halt> = OnceLock::new();
+
+/// Whether there may be something to write down.
+static TRACING: AtomicBool = AtomicBool::new(false);
+
+/// From now on SIGINT and SIGTERM, and SIGUSR1 where engines send it before a time limit, set the flag of
+/// [`halt`]. Before anything has been traced they end the program, after `early`.
+pub fn stop_on_signals(early: impl FnOnce() + Send + 'static) {
     HALT.get_or_init(|| {
         let (halt, armed) = (Halt::default(), Arc::new(AtomicBool::new(false)));
         for signal in signals() {
@@ -21,17 +27,30 @@ pub fn stop_on_signals() -> Halt {
             let _ = signal_hook::flag::register(signal, Arc::clone(&halt.0));
         }
         let asked = Arc::clone(&halt.0);
-        // Without this thread no signal ends it at once.
-        let _ = thread::Builder::new().name("signals".to_owned()).spawn(move || arm(&asked, &armed));
+        // Without this thread signals are heeded only while tiles are traced.
+        let _ = thread::Builder::new().name("signals".to_owned()).spawn(move || wait(&asked, &armed, early));
         halt
-    })
-    .clone()
+    });
 }
 
-/// Lets the next signal end the program, some time after the first.
-fn arm(asked: &AtomicBool, armed: &AtomicBool) {
+/// Told by signals.
+pub fn halt() -> Option<Halt> {
+    HALT.get().cloned()
+}
+
+/// From now on a signal lets the program write what is there, or not any longer.
+pub fn tracing(now: bool) {
+    TRACING.store(now, Ordering::SeqCst);
+}
+
+/// Ends the program where there is nothing to write, or lets the next signal do so, some time after the first.
+fn wait(asked: &AtomicBool, armed: &AtomicBool, early: impl FnOnce()) {
     while !asked.load(Ordering::SeqCst) {
         thread::sleep(SAME_REQUEST / 8);
+    }
+    if !TRACING.load(Ordering::SeqCst) {
+        early();
+        std::process::exit(STOPPED.into());
     }
     thread::sleep(SAME_REQUEST);
     armed.store(true, Ordering::SeqCst);

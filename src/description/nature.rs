@@ -1,6 +1,6 @@
 //! What a material does with light, as far as its description tells: what a texture drives may be anything.
 
-use super::{Dispersion, Ior, Material, NAMED_IOR, Rgb, Source};
+use super::{Dispersion, Ior, Material, NAMED_IOR, Source};
 
 impl Material {
     /// Its index of refraction at the D line.
@@ -29,15 +29,16 @@ impl Material {
         self.index() != 1.0 || self.disperses()
     }
 
-    /// Whether it transmits and is there at all: light passes through some as through the vacuum.
+    /// Whether it transmits and is there at all: light passes through some as through the vacuum, and none
+    /// through a perfect mirror.
     pub fn is_interface(&self) -> bool {
-        !self.transmission.is_zero() && !self.is_nothing()
+        !self.transmission.is_zero() && !self.is_nothing() && !self.reflection.is_one()
     }
 
     /// Whether light passes through it as through the vacuum.
     pub(super) fn is_nothing(&self) -> bool {
         !self.bends()
-            && self.transmission == Source::Constant(Rgb::grey(1.0))
+            && self.transmission.is_one()
             && self.reflection.is_zero()
             && self.specular.is_zero()
             && self.emission.is_zero()
@@ -58,8 +59,7 @@ impl Material {
 
     /// Whether light that reaches it is scattered to all sides: (1−km)·(1−kt)·kd is not zero.
     pub fn is_matt(&self) -> bool {
-        let one = |weight: &Source| matches!(weight, Source::Constant(c) if *c == Rgb::grey(1.0));
-        !self.diffuse.is_zero() && !one(&self.reflection) && !one(&self.transmission)
+        !self.diffuse.is_zero() && !self.reflection.is_one() && !self.transmission.is_one()
     }
 
     /// Whether light that reaches it can be seen on it: it is matt, or has a highlight.

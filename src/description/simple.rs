@@ -1,19 +1,31 @@
 //! The same scene without settings that change nothing, so that nothing is loaded or traced for them.
 
-use super::{BumpMap, Material, NormalMap, Rgb, Scene, Source, Texture};
+use super::{BumpMap, EnvironmentMap, Light, Material, NormalMap, Rgb, Scene, Source, Texture};
 use std::borrow::Cow;
+
+/// A sky that shines nowhere.
+const NIGHT: EnvironmentMap = EnvironmentMap::Constant(Rgb::grey(0.0));
 
 impl Scene {
     /// The scene with textures of one colour as that colour, without maps that leave the surface as it is,
-    /// and without what only the inside of glass has where nothing transmits.
+    /// without what only the inside of glass has where nothing transmits, and without the image of a black sky.
     pub fn simplified(&self) -> Cow<'_, Scene> {
+        let dark =
+            |light: &Light| matches!(light, Light::Environment { scale: 0.0, map, .. } if *map != NIGHT);
         let simple = |m: &Material| self.simple(m);
-        if self.materials.iter().all(|(_, m)| simple(m) == *m) {
+        let plain = self.materials.iter().all(|(_, m)| simple(m) == *m)
+            && !self.lights.iter().any(|(_, light)| dark(light));
+        if plain {
             return Cow::Borrowed(self);
         }
         let mut scene = self.clone();
         for (_, material) in scene.materials.iter_mut() {
             *material = simple(material);
+        }
+        for (_, light) in scene.lights.iter_mut() {
+            if let Light::Environment { scale: 0.0, map, .. } = light {
+                *map = NIGHT;
+            }
         }
         Cow::Owned(scene)
     }
@@ -30,10 +42,8 @@ impl Scene {
         if m.transmission.is_zero() {
             (m.absorption, m.dispersion) = (Rgb::default(), None);
         }
-        let bare = [&m.diffuse, &m.specular, &m.reflection].iter().all(|w| w.is_zero())
-            && (m.transmission.is_zero() || m.is_nothing());
-        m.bump_map = m.bump_map.filter(|map| !bare && !self.is_level(map));
-        m.normal_map = m.normal_map.filter(|map| !bare && !self.is_flat(map));
+        m.bump_map = m.bump_map.filter(|map| !self.is_level(map));
+        m.normal_map = m.normal_map.filter(|map| !self.is_flat(map));
         m
     }
 
@@ -115,8 +125,6 @@ mod tests {
             "diffuse: 0.5, bump_map: (texture: \"grey\", height_m: 1), normal_map: (texture: \"up\", strength: 2)",
         );
         assert!(flat.bump_map.is_none() && flat.normal_map.is_none());
-        let unseen = one("transmission: 1, ior: 1, bump_map: (texture: \"hills\", height_m: 1)");
-        assert!(unseen.bump_map.is_none());
         let kept = one("diffuse: texture(\"hills\"), bump_map: (texture: \"hills\", height_m: 1), \
              normal_map: (texture: \"hills\")");
         assert!(kept.diffuse.texture().is_some() && kept.bump_map.is_some() && kept.normal_map.is_some());

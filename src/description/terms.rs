@@ -8,6 +8,7 @@ pub struct Unread {
     pub normal_maps: bool,
     pub bump_maps: bool,
     pub environment: bool,
+    pub highlights: bool,
 }
 
 /// The terms of one reading.

@@ -64,6 +64,11 @@ impl Source {
         matches!(self, Source::Constant(c) if c.is_zero())
     }
 
+    /// Whether it is all of the light, everywhere.
+    pub fn is_one(&self) -> bool {
+        matches!(self, Source::Constant(c) if *c == Rgb::grey(1.0))
+    }
+
     pub fn texture(&self) -> Option<&TextureRef> {
         match self {
             Source::Constant(_) => None,

@@ -4,9 +4,17 @@ use super::decision::{Cause, Decision, few};
 use super::{Effect, lighting};
 use crate::description::{Antialiasing, Material, Scene, Use, uses};
 
-/// One decision an effect, in their order.
-pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
-    let uses = uses(scene);
+/// One decision an effect, in their order, of a scene without what changes nothing; `written` is that with it.
+pub(super) fn decide(scene: &Scene, written: &Scene) -> Vec<Decision> {
+    let (uses, all) = (uses(scene), uses(written));
+    // what is named and changes nothing is told
+    let named = |effect: Effect, name: fn(&Material) -> Option<String>, otherwise: &str| {
+        if let Some(reason) = who(&uses, ["names", "name"], name) {
+            return Decision::on(effect, reason);
+        }
+        let idle = who(&all, ["names", "name"], name).map(|told| format!("{told}, which changes nothing"));
+        Decision::off(effect, idle.unwrap_or_else(|| otherwise.to_owned()))
+    };
     let lights = lighting::Lights::of(scene, &uses);
     Effect::ALL
         .into_iter()
@@ -37,25 +45,15 @@ pub(super) fn decide(scene: &Scene) -> Vec<Decision> {
                 "no reachable material that transmits absorbs",
             ),
             Effect::Dispersion => dispersion(&uses),
-            Effect::Textures => Decision::of(
+            Effect::Textures => named(effect, texture_names, "no reachable material names a texture"),
+            Effect::NormalMaps => named(
                 effect,
-                who(&uses, ["names", "name"], texture_names),
-                "no reachable material names a texture",
-            ),
-            Effect::NormalMaps => Decision::of(
-                effect,
-                who(&uses, ["names", "name"], |m| {
-                    let map = m.normal_map.as_ref()?;
-                    Some(format!(" `{}`", map.texture))
-                }),
+                |m| m.normal_map.as_ref().map(|map| format!(" `{}`", map.texture)),
                 "no reachable material names one",
             ),
-            Effect::BumpMaps => Decision::of(
+            Effect::BumpMaps => named(
                 effect,
-                who(&uses, ["names", "name"], |m| {
-                    let map = m.bump_map.as_ref()?;
-                    Some(format!(" `{}`", map.texture))
-                }),
+                |m| m.bump_map.as_ref().map(|map| format!(" `{}`", map.texture)),
                 "no reachable material names one",
             ),
             Effect::Indirect => lights.indirect(scene, &uses),
@@ -98,7 +96,7 @@ pub(super) fn who(
 }
 
 fn dispersion(uses: &[Use]) -> Decision {
-    let disperses = |m: &Material| (m.disperses() && !m.transmission.is_zero()).then(String::new);
+    let disperses = |m: &Material| (m.disperses() && m.is_interface()).then(String::new);
     if let Some(reason) = who(uses, ["disperses", "disperse"], disperses) {
         return Decision::on(Effect::Dispersion, reason);
     }
@@ -120,7 +118,7 @@ fn refraction(uses: &[Use]) -> Decision {
         return Decision::on(Effect::Refraction, reason);
     }
     let nothing = who(uses, ["has", "have"], |m| {
-        let transmits = !m.transmission.is_zero();
+        let transmits = !m.transmission.is_zero() && !m.reflection.is_one();
         transmits.then(|| " the index of what is around, 1: light does not notice".to_owned())
     });
     Decision::off(Effect::Refraction, nothing.unwrap_or_else(|| "no reachable material transmits".to_owned()))
@@ -130,7 +128,7 @@ fn refraction(uses: &[Use]) -> Decision {
 fn nested_media(uses: &[Use]) -> Decision {
     let mut objects: Vec<&str> = uses
         .iter()
-        .filter(|u| !u.material.transmission.is_zero())
+        .filter(|u| !u.material.transmission.is_zero() && !u.material.reflection.is_one())
         .flat_map(|u| u.objects.iter().map(String::as_str))
         .collect();
     objects.sort_unstable();

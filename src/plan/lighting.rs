@@ -11,13 +11,19 @@ pub(super) struct Lights<'a> {
     small: Vec<&'a str>,
     large: Vec<&'a str>,
     sky: Option<&'a str>,
+    /// A sky that is black.
+    night: Option<&'a str>,
     /// Objects that emit.
     objects: Vec<&'a str>,
 }
 
 impl<'a> Lights<'a> {
     pub fn of(scene: &'a Scene, uses: &'a [Use]) -> Lights<'a> {
-        let mut lights = Lights { small: Vec::new(), large: Vec::new(), sky: None, objects: Vec::new() };
+        let mut lights =
+            Lights { small: Vec::new(), large: Vec::new(), sky: None, night: None, objects: Vec::new() };
+        let black =
+            |(_, light): &(&str, &Light)| light.is_black() && matches!(light, Light::Environment { .. });
+        lights.night = scene.lights.iter().find(black).map(|(name, _)| name);
         for (name, light) in scene.lights.iter().filter(|(_, light)| !light.is_black()) {
             match light {
                 Light::Point { .. } | Light::Spot { .. } | Light::Directional { .. } => {
@@ -78,7 +84,9 @@ impl<'a> Lights<'a> {
 
     pub fn environment(&self) -> Decision {
         let found = self.sky.map(|name| format!("`{name}` shines from all around"));
-        Decision::of(Effect::Environment, found, "no light is an environment")
+        let night = self.night.map(|name| format!("`{name}` is black"));
+        let otherwise = night.as_deref().unwrap_or("no light is an environment");
+        Decision::of(Effect::Environment, found, otherwise)
     }
 
     pub fn highlights(&self, uses: &[Use]) -> Decision {

@@ -84,12 +84,16 @@ impl Plan {
     pub fn new(scene: &Scene, request: &Request) -> Result<Plan, Refused> {
         let overrides = request.overrides.clone();
         let simple = scene.simplified();
-        let own = decide::decide(&simple);
+        let own = decide::decide(&simple, scene);
         let notes = overrides.check(&own)?;
         let carried = overrides.carried(scene);
+        let written = scene;
         let scene = &*overrides::edited(&simple, &overrides, &carried);
-        let decisions =
-            if overrides.is_empty() { own } else { overrides.decide(&own, &decide::decide(scene), &carried) };
+        let decisions = if overrides.is_empty() {
+            own
+        } else {
+            overrides.decide(&own, &decide::decide(scene, written), &carried)
+        };
         let until = Until::of(scene, request.until);
         until.check(scene).map_err(Refused)?;
         let progressive = scene.antialiasing == Antialiasing::Progressive;

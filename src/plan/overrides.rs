@@ -38,6 +38,7 @@ impl Overrides {
         Unread {
             normal_maps: self.leaves_out(Effect::NormalMaps),
             bump_maps: self.leaves_out(Effect::BumpMaps),
+            highlights: self.leaves_out(Effect::Highlights),
             // whether there is indirect light, the scene has to tell
             environment: !Carried::new(self.only.as_deref(), &self.without, true)
                 .anywhere(Effect::Environment)
@@ -141,16 +142,25 @@ impl Overrides {
             .collect()
     }
 
+    /// The decision of the edited scene; where that has lost what the effect needs, by the overrides.
+    fn lost(&self, own: &Decision, edited: &Decision) -> Decision {
+        if !own.on || edited.on || edited.cause == Cause::Asked {
+            return edited.clone();
+        }
+        let reason = format!("nothing is left of it with `{self}`; else on: {}", own.reason);
+        Decision { effect: own.effect, on: false, reason, cause: Cause::Overridden }
+    }
+
     /// What `--only` makes of a decision.
     fn only(&self, own: &Decision, edited: &Decision, carried: &Carried) -> Decision {
         let effect = own.effect;
         let Some(only) = self.only.as_ref().filter(|_| effect.carries_light() && own.on) else {
             // what the scene lacks is off for its own reason, not for what an edit took away
-            return if own.on { edited.clone() } else { own.clone() };
+            return if own.on { self.lost(own, edited) } else { own.clone() };
         };
         let set = super::Carriers::of(effect);
         if carried.first.any(set) {
-            return edited.clone();
+            return self.lost(own, edited);
         }
         let list: Vec<&str> = only.iter().map(|e| e.key()).collect();
         let list = list.join(", ");

@@ -21,7 +21,7 @@ pub struct Checkpoint {
     pub sparing: bool,
     /// Goes on from the file, if it is there.
     pub resume: bool,
-    /// The partial image that is to become of it: with `resume`, nothing is done if it is there.
+    /// The partial image that is to become of it, where nothing is to be done if it is there.
     pub part: Option<PathBuf>,
 }
 
@@ -102,10 +102,8 @@ impl<'a> Keeper<'a> {
 
     /// What an earlier run left, if that is asked for and there is anything.
     pub fn resume(&mut self, progress: &dyn Progress) -> Result<Option<Resumed>, RenderError> {
-        let Some(checkpoint) = self.options.checkpoint.as_ref().filter(|checkpoint| checkpoint.resume) else {
-            return Ok(None);
-        };
-        if !checkpoint.path.exists() {
+        let Some(checkpoint) = &self.options.checkpoint else { return Ok(None) };
+        if !checkpoint.resume || !checkpoint.path.exists() {
             let part = checkpoint.part.as_ref().and_then(|path| kept::load(path).ok());
             let same = |kept: &Kept| kept.other_than(self.provenance, &self.form, &self.shards).is_none();
             let there = part.is_some_and(|kept| kept.part.finished && same(&kept));

@@ -259,13 +259,16 @@ pub enum RenderError {
     TooLarge(String),
     #[error("{0}")]
     Failed(String),
+    /// Told to stop before anything was traced.
+    #[error("stopped before anything was traced")]
+    Stopped,
     /// The part that was asked for is there already.
     #[error("there already")]
     Already,
 }
 
 impl RenderError {
-    /// 1 render failed, 2 scene invalid, 3 input unreadable, 5 a limit refused.
+    /// 1 render failed, 2 scene invalid, 3 input unreadable, 5 a limit refused, 6 stopped.
     pub fn exit_code(&self) -> u8 {
         match self {
             RenderError::Failed(_) => 1,
@@ -273,6 +276,7 @@ impl RenderError {
             RenderError::NotSupported(_) | RenderError::Invalid(_) => 2,
             RenderError::Io(_) => 3,
             RenderError::TooLarge(_) => 5,
+            RenderError::Stopped => 6,
         }
     }
 }

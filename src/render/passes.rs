@@ -106,6 +106,9 @@ pub(super) fn trace(
         }
     }
     progress.finish();
+    if halted && done == 0 && film.tiles.iter().all(|tile| tile.next <= plan.first_pass) {
+        return Err(RenderError::Stopped);
+    }
     let part = keeper.part(at, done, Counts::of(&tally), halted.then_some(&stop));
     if halted {
         keeper.save(&film, &part, progress);

@@ -250,6 +250,9 @@ impl Tracer<'_> {
         let (eta, colour) = self.world.relative_ior(&branch.media, &crossing.after, branch.wavelength, u);
         let interface = shading.interface(eta);
         let weight = (Vec3::ONE - shading.km) * shading.kt * colour.weight;
+        if weight == Vec3::ZERO {
+            return;
+        }
         let wavelength = colour.um;
         let cone = branch.cone.after(surface.t);
         let carried = self.carried(branch);

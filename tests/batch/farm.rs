@@ -23,9 +23,13 @@ fn written(lab: &Lab, engine: &str, more: &[&str]) -> Vec<(String, String)> {
 #[test]
 fn images_that_could_not_be_merged_to_are_refused_before_the_job_is_written() {
     let lab = Lab::new(CAUSTIC);
-    for (output, reason) in [("a.jpg", "ends in .exr or .png"), ("-", "a job's image goes to a file")] {
+    for (output, code, reason) in [
+        ("a.jpg", 2, "ends in .exr or .png"),
+        ("-", 2, "a job's image goes to a file"),
+        ("no/folder/a.exr", 4, "can't write"),
+    ] {
         let words = ["farm", "scene.ron", "--engine", "slurm", "--shards", "2", "-o", output];
-        let said = lab.fails(2, &words);
+        let said = lab.fails(code, &words);
         assert!(said.contains(reason), "{said}");
         assert_eq!(lab.names(), ["scene.ron"]);
     }

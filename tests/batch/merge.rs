@@ -63,6 +63,11 @@ fn shards_of_a_frame_merge_to_the_bits_of_that_frame() {
         let shard = format!("{i}/2");
         lab.render(&["--frames", "3-4", "--shard", &shard, "--passes", "8", "--out-dir", "parts"]);
     }
+    let again = ["--frames", "3-4", "--shard", "1/2", "--passes", "8", "--out-dir", "parts"];
+    let said = lab.done(&[&["render", "scene.ron"], &again[..]].concat());
+    assert_eq!(said.matches("there already").count(), 2, "{said}");
+    let said = lab.done(&[&["render", "scene.ron", "--again"], &again[..]].concat());
+    assert_eq!(said.matches("there already").count(), 0, "{said}");
     let parts = [0, 1].map(|i| format!("parts/scene.0004.shard-000{i}-of-0002.exr"));
     lab.done(&["merge", &parts[0], &parts[1], "-o", "merged.exr"]);
     assert!(lab.bytes("merged.exr") == lab.bytes("whole.exr"));

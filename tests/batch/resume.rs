@@ -108,6 +108,29 @@ fn a_part_that_is_there_is_not_rendered_again() {
     assert!(!said.contains("there already"), "{said}");
 }
 
+/// There is nothing to write yet: what is there stays, and the program does not wait for its stages.
+#[cfg(unix)]
+#[test]
+fn a_signal_before_anything_is_traced_leaves_the_old_image() {
+    let many = r#"definitions: { "ball": (shape: sphere(radius: 0.001), material: "glass") }, objects: [
+        (shape: scatter(of: ["ball"], over: "ground", count: 400000)),
+        (name: "ground", shape: quad(size: (9, 9)), material: "floor"),"#;
+    let lab = Lab::new(CAUSTIC);
+    lab.done(&["render", "scene.ron", "--passes", "1", "-q", "-o", "out.exr"]);
+    let before = lab.bytes("out.exr");
+    std::fs::write(lab.path("many.ron"), CAUSTIC.replace("objects: [", many)).expect("written");
+    let mut child = begun(&lab, &["render", "many.ron", "-q", "-o", "out.exr", "--progress", "json"]);
+    std::thread::sleep(Duration::from_millis(250));
+    let asked = Instant::now();
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().expect("it ends").code(), Some(6));
+    assert!(asked.elapsed() < Duration::from_secs(2), "{:?}", asked.elapsed());
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().expect("piped"), &mut said).expect("text");
+    assert!(said.contains("\"failed\"") && said.contains("stopped before anything was traced"), "{said}");
+    assert!(lab.bytes("out.exr") == before && !lab.path("out.exr.checkpoint").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_that_comes_twice_at_once_is_one_request() {

@@ -6,7 +6,7 @@
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 program=${TERRARIUM:-$root/target/release/terrarium}
-scene=${SCENE:-$root/scenes/terrarium.ron}
+scene=$(realpath "${SCENE:-$root/scenes/terrarium.ron}")
 shards=${SHARDS:-8}
 more=${MORE:---passes 64 --set image.width=320 --set image.height=180}
 for needed in slurmctld slurmd sbatch munged; do
@@ -94,7 +94,7 @@ task=
 for _ in $(seq 300); do
     for victim in $(pgrep -f "$program render $scene" || true); do
         task=$(tr '\0' '\n' <"/proc/$victim/environ" 2>/dev/null | sed -n 's/^SLURM_ARRAY_TASK_ID=//p') || true
-        [ -n "$task" ] && ls "$work"/parts/*shard-000"$task"-*.checkpoint >/dev/null 2>&1 && break 2
+        [ -n "$task" ] && ls "$work"/parts/*/*shard-000"$task"-*.checkpoint >/dev/null 2>&1 && break 2
     done
     task=
     sleep 0.1

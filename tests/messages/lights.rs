@@ -58,6 +58,10 @@ pub const CASES: &[super::Case] = &[
         &["2:57: error: lights.l.point: there is no field `samples` here"],
     ),
     (
+        r#"animation: (frames: 2, keys: { "lights.l.intensity": linear([(frame: 1, value: 0), (frame: 2, value: 1)]) }), lights: { "l": point(position: (0, 3, 0), intensity: 0) }"#,
+        &[],
+    ),
+    (
         r#"background: 1, lights: { "l": environment(map: constant(1), turn_deg: 30) }"#,
         &[
             "2:13: warning: background: `background` does nothing: the environment `l` is seen in its place",

@@ -101,6 +101,16 @@ pub const CASES: &[super::Case] = &[
         &[],
     ),
     (
+        r#"materials: { "m": (diffuse: 0.3, reflection: 1) }"#,
+        &[
+            "2:29: warning: materials.m.diffuse: `diffuse` does nothing where `reflection` is 1: it lies below",
+        ],
+    ),
+    (
+        r#"animation: (frames: 2, keys: { "textures.t.wood.b": linear([(frame: 1, value: 0), (frame: 2, value: 1)]) }), textures: { "t": wood(a: 0, b: 1, ring_m: 1) }, materials: { "m": (diffuse: 0.5, bump_map: (texture: "t", height_m: 1)) }"#,
+        &[],
+    ),
+    (
         r#"materials: { "m": (transmission: 1, ior: 1, dispersion: abbe(30)) }"#,
         &[
             "2:62: warning: materials.m.dispersion.abbe: an Abbe number does nothing where `ior` is 1: it spreads `ior` − 1; `cauchy` gives the spread itself",

@@ -1,6 +1,6 @@
 //! What is off is free: its stages do not run, its files are not read, its memory is not held.
 
-use super::lab::{BALL, LAMP, own_plan, render, scene, shot, without};
+use super::lab::{BALL, LAMP, decision, own_plan, render, scene, shot, without};
 use crate::render::shot::Picture;
 use terrarium::plan::{Effect, Overrides};
 
@@ -62,7 +62,6 @@ fn what_changes_nothing_is_not_read_and_calls_for_nothing() {
         (r#"diffuse: texture(name: "there", scale: 0), reflection: 0.5"#, "reflection: 0.5"),
         (r#"diffuse: 0.5, reflection: texture(name: "there", scale: 0)"#, "diffuse: 0.5"),
         (r#"diffuse: 0.5, transmission: texture(name: "there", scale: 0), absorption: 2"#, "diffuse: 0.5"),
-        (r#"transmission: 1, ior: 1, normal_map: (texture: "there")"#, "transmission: 1, ior: 1"),
     ] {
         let (idle, plain) = (mapped(idle, "mapped"), mapped(plain, "mapped"));
         let (a, b) = (render_in(folder.path(), &idle, &whole), render_in(folder.path(), &plain, &whole));
@@ -72,9 +71,44 @@ fn what_changes_nothing_is_not_read_and_calls_for_nothing() {
         assert_eq!(on(&idle), on(&plain), "{idle}");
         assert_eq!(a.rendered.stats.rays, b.rendered.stats.rays, "{idle}");
     }
+    // nor is the image of a sky that is black
+    let sky = r#""sky": environment(map: image(path: "none.exr"), scale: 0)"#;
+    let night = mapped("diffuse: 0.5", "mapped").replace("lights: {", &format!("lights: {{ {sky},"));
+    assert!(render_in(folder.path(), &night, &whole).rendered.files.is_empty());
     // and a file that is not there is no mistake
     let missing = mapped(r#"diffuse: 0.5, normal_map: (texture: "missing", strength: 0)"#, "mapped");
     assert!(render_in(folder.path(), &missing, &whole).rendered.files.is_empty());
+}
+
+/// The wall of a bubble refracts, whatever the index within: what it is around tells only where it is placed.
+#[test]
+fn a_bubble_in_glass_keeps_its_map() {
+    let bubble = |ior: f64, map: &str| {
+        let air = format!(r#""air": (transmission: 1, ior: {ior}, priority: 1 {map})"#);
+        let objects =
+            format!(r#"{BALL}, (shape: sphere(radius: 0.3, center: (0, 0.6, 0)), material: "air")"#);
+        render(&scene("", &air, LAMP, &objects), &Overrides::default()).grey()
+    };
+    let map = r#", bump_map: (texture: "waves", height_m: 0.05)"#;
+    let (plain, bumpy, near) = (bubble(1.0, ""), bubble(1.0, map), bubble(1.0 + 1e-9, map));
+    let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(
+        off(&bumpy, &near) < 1e-4 && off(&bumpy, &plain) > 1e-2,
+        "{} {}",
+        off(&bumpy, &near),
+        off(&bumpy, &plain)
+    );
+}
+
+/// Nothing is sent through a perfect mirror, and its plan says so.
+#[test]
+fn a_perfect_mirror_hides_the_glass_below() {
+    let text = mapped("reflection: 1, transmission: 0.5, dispersion: abbe(30)", "mapped");
+    let picture = render(&text, &Overrides::default());
+    assert_eq!(picture.rendered.stats.rays.refraction, 0);
+    let plan = own_plan(&text);
+    let off = [Effect::Refraction, Effect::NestedMedia].map(|effect| decision(&plan, effect).on);
+    assert_eq!(off, [false; 2]);
 }
 
 #[test]

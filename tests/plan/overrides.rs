@@ -56,6 +56,13 @@ fn the_reason_for_what_is_off_is_the_scenes_own() {
         decision(&lamp, Effect::Shadows).reason,
         "with `without direct` no surface looks for a lamp or a sky"
     );
+    let grey = r#""dim": (transmission: 1, ior: 1, absorption: 3)"#;
+    let ball = r#"(name: "fog", shape: sphere(radius: 0.5), material: "dim")"#;
+    let clear =
+        plan(&scene("", grey, LAMP, ball), &without(&[Effect::Absorption])).expect("it may be left out");
+    let refraction = decision(&clear, Effect::Refraction);
+    assert_eq!(refraction.cause, Cause::Overridden);
+    assert!(refraction.reason.starts_with("nothing is left of it with `without absorption`"), "{refraction}");
     let error = "nothing".parse::<Effect>().expect_err("no such effect");
     assert!(!error.contains("nested_media") && !error.contains("did you mean"), "{error}");
 }

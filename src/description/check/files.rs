@@ -4,7 +4,7 @@
 use super::{Checker, Kind, Severity};
 use crate::description::suggest::nearest;
 use crate::description::tree::Path;
-use crate::description::{Material, Reach, Unread, used_materials};
+use crate::description::{EnvironmentMap, Light, Material, Reach, Unread, used_materials};
 use std::collections::{HashMap, HashSet};
 use std::io::ErrorKind;
 use std::path::Path as FilePath;
@@ -32,17 +32,25 @@ fn idle_images(c: &Checker, unread: Unread) -> Vec<Path> {
     let materials = scene.materials.iter().filter(|(name, _)| used.contains(name));
     let read: HashSet<&str> = materials.flat_map(|(_, material)| read_by(material, unread)).collect();
     let textures = c.scene.textures.names().filter(|name| !read.contains(name)).map(Path::image_texture);
-    let skies = c.scene.lights.names().filter(|_| unread.environment).map(Path::environment_image);
+    let sky = |light: &Light| matches!(light, Light::Environment { map: EnvironmentMap::Image { .. }, .. });
+    let skies = scene.lights.iter().filter(|(_, light)| unread.environment || !sky(light));
+    let skies = skies.map(|(name, _)| Path::environment_image(name));
     textures.chain(skies).collect()
 }
 
 /// The textures that a material needs.
 fn read_by(material: &Material, unread: Unread) -> impl Iterator<Item = &str> {
+    let highlight = material.specular.texture().filter(|_| unread.highlights).map(|t| t.name.as_str());
+    let others = [&material.diffuse, &material.reflection, &material.transmission, &material.emission];
+    let elsewhere = move |name: &str| others.iter().filter_map(|w| w.texture()).any(|t| t.name == name);
     let maps = [
         material.normal_map.as_ref().filter(|_| !unread.normal_maps).map(|map| map.texture.as_str()),
         material.bump_map.as_ref().filter(|_| !unread.bump_maps).map(|map| map.texture.as_str()),
     ];
-    material.colours().chain(maps.into_iter().flatten())
+    material
+        .colours()
+        .filter(move |&name| highlight != Some(name) || elsewhere(name))
+        .chain(maps.into_iter().flatten())
 }
 
 /// Why a file cannot be read.

@@ -78,7 +78,7 @@ fn check_light(c: &mut Checker, base: &Path, light: &Light) {
             let path = base.key("environment");
             c.not_negative(&path.key("scale"), *scale);
             if *scale == 0.0 {
-                c.warn(&path.key("scale"), "this light emits nothing");
+                c.idle(&[&path.key("scale")], "this light emits nothing");
             }
             shadow_rays(c, &path, *samples);
             environment(c, &path.key("map"), map);
@@ -94,7 +94,7 @@ fn environment(c: &mut Checker, path: &Path, map: &EnvironmentMap) {
                 c.colour(&path.key("gradient").key(key), rgb);
             }
             if zenith.is_zero() && horizon.is_zero() && nadir.is_zero() {
-                c.warn(&path.key("gradient"), "this light emits nothing");
+                c.idle(&[&path.key("gradient")], "this light emits nothing");
             }
         }
         EnvironmentMap::Image { .. } => {}
@@ -105,7 +105,7 @@ fn environment(c: &mut Checker, path: &Path, map: &EnvironmentMap) {
 fn emission(c: &mut Checker, path: &Path, rgb: &Rgb) {
     c.colour(path, rgb);
     if rgb.is_zero() {
-        c.warn(path, "this light emits nothing");
+        c.idle(&[path], "this light emits nothing");
     }
 }
 

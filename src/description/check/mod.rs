@@ -128,6 +128,13 @@ impl Checker<'_> {
         self.report(Severity::Warning, Kind::Invalid, paths, message.into(), None);
     }
 
+    /// A doubt that these values do nothing: none where an animation gives one of them others.
+    fn idle(&mut self, paths: &[&Path], message: impl Into<String>) {
+        if !paths.iter().any(|path| self.moves(path)) {
+            self.warn_about(paths, message);
+        }
+    }
+
     fn warn(&mut self, path: &Path, message: impl Into<String>) {
         self.report(Severity::Warning, Kind::Invalid, &[path], message.into(), None);
     }
@@ -136,11 +143,9 @@ impl Checker<'_> {
     fn moves(&self, path: &Path) -> bool {
         let path = path.to_string();
         let keys = self.root.root.entry("animation").and_then(|animation| animation.node.entry("keys"));
-        keys.map_or(&[][..], |keys| keys.node.entries()).iter().any(|entry| {
-            let key = entry.key.as_str();
-            path.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-                || key.strip_prefix(&path).is_some_and(|rest| rest.starts_with('.'))
-        })
+        keys.map_or(&[][..], |keys| keys.node.entries())
+            .iter()
+            .any(|entry| leads(&entry.key, &path) || leads(&path, &entry.key))
     }
 
     /// `low ≤ x ≤ high`.
@@ -179,4 +184,11 @@ impl Checker<'_> {
             );
         }
     }
+}
+
+/// Whether a path leads to a place or to what it is in: its names follow each other in the place's, which may have
+/// a light's or a shape's kind between, `lights.lamp.sphere.radius` for `lights.lamp.radius`.
+fn leads(path: &str, place: &str) -> bool {
+    let mut names = place.split('.');
+    path.split('.').all(|name| names.any(|other| other == name))
 }

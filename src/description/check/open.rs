@@ -8,7 +8,10 @@ use std::collections::HashSet;
 
 pub(super) fn check(c: &mut Checker) {
     let scene = c.scene;
-    let mut walk = Walk { c, seen: HashSet::new() };
+    let simple = scene.simplified();
+    let interfaces =
+        simple.materials.iter().filter(|(_, m)| m.is_interface()).map(|(name, _)| name.to_owned());
+    let mut walk = Walk { interfaces: interfaces.collect(), c, seen: HashSet::new() };
     for (i, object) in scene.objects.iter().enumerate() {
         walk.object(object, &list().index(i), None);
     }
@@ -16,6 +19,8 @@ pub(super) fn check(c: &mut Checker) {
 
 struct Walk<'w, 'a> {
     c: &'w mut Checker<'a>,
+    /// The names of materials that light passes through and that bend it.
+    interfaces: HashSet<String>,
     /// Definitions that were looked at, with the material of what places them.
     seen: HashSet<(&'a str, Option<&'a str>)>,
 }
@@ -49,7 +54,7 @@ impl<'a> Walk<'_, 'a> {
     }
 
     fn warn(&mut self, path: &Path, material: &str, help: &str) {
-        if !self.c.scene.materials.get(material).is_some_and(|m| m.is_interface()) {
+        if !self.interfaces.contains(material) {
             return;
         }
         let message = format!(

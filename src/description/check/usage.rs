@@ -24,7 +24,8 @@ pub(super) fn check(c: &mut Checker) {
     }
     idle_settings(c);
     idle_sky(c);
-    let emits = scene.materials.iter().any(|(_, m)| !m.emission.is_zero());
+    let simple = scene.simplified();
+    let emits = simple.materials.iter().any(|(_, m)| m.emits());
     let lit = !scene.lights.is_empty() || !scene.ambient.is_zero() || !scene.background.is_zero();
     if !lit && !emits {
         c.warn(
@@ -48,23 +49,25 @@ fn idle_settings(c: &mut Checker) {
         None
     };
     let (indirect, by) = (Path::of("indirect"), Path::of("indirect_by"));
+    let (lights, materials) = (Path::of("lights"), Path::of("materials"));
     match why {
         Some(why) if !c.scene.indirect.is_off() => {
-            c.warn(&indirect, format!("`indirect` does nothing: {why}"))
+            c.idle(&[&indirect, &lights, &materials], format!("`indirect` does nothing: {why}"))
         }
         None if !c.scene.indirect.is_off() && !c.scene.ambient.is_zero() => {
             let message = "`ambient` stands for `indirect`: with both, that light is counted twice";
-            c.warn_about(&[&Path::of("ambient"), &indirect], message);
+            c.idle(&[&Path::of("ambient"), &indirect], message);
         }
         None if c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::default() => {
-            c.warn(&by, "`indirect_by` does nothing without `indirect`");
+            c.idle(&[&by, &indirect], "`indirect_by` does nothing without `indirect`");
         }
         _ => {}
     }
     let photons = !c.scene.photons.is_default() && c.scene.photons != Photons::Off;
     let by_photons = !c.scene.indirect.is_off() && c.scene.indirect_by != IndirectBy::Paths;
     if photons && !by_photons && !any(|m| m.is_specular()) {
-        c.warn(&Path::of("photons"), "`photons` do nothing: nothing placed reflects or transmits");
+        let message = "`photons` do nothing: nothing placed reflects or transmits";
+        c.idle(&[&Path::of("photons"), &materials], message);
     }
 }
 
@@ -75,12 +78,12 @@ fn idle_sky(c: &mut Checker) {
         let Light::Environment { map, turn_deg, visible, .. } = light else { continue };
         let place = Path::of("lights").key(name).key("environment");
         if *turn_deg != 0.0 && !matches!(map, EnvironmentMap::Image { .. }) {
-            c.warn(&place.key("turn_deg"), "`turn_deg` does nothing: this map is the same all around");
+            c.idle(&[&place.key("turn_deg")], "`turn_deg` does nothing: this map is the same all around");
         }
         if *visible && !scene.background.is_zero() {
             let background = Path::of("background");
             let message = format!("`background` does nothing: the environment `{name}` is seen in its place");
-            c.warn_about(&[&background, &place], message);
+            c.idle(&[&background, &place], message);
         }
     }
 }
