@@ -41,7 +41,7 @@ pub fn run(args: &RenderArgs, terminal: &Terminal) -> Result<(), Failure> {
     frames::each(args, &asked, terminal, |args, place| frame(args, place, terminal))
 }
 
-const NOTHING_TRACED: &str = "stopped before anything was traced: nothing is written";
+const NOTHING_TRACED: &str = "stopped before anything was traced: nothing further is written";
 
 /// Renders the scene, or one frame of it.
 fn frame(args: &RenderArgs, place: Place, terminal: &Terminal) -> Result<(), Failure> {

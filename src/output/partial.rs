@@ -18,7 +18,7 @@ use exr::prelude::{
     SmallVec, Vec2,
 };
 use rayon::prelude::*;
-use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 
 /// Words in a row of the file.
 const ROW: usize = 8192;
@@ -134,7 +134,13 @@ fn rows((number, part): (usize, &Header)) -> Option<(usize, usize)> {
 
 fn unreadable(error: exr::error::Error) -> PartialError {
     match error {
-        exr::error::Error::Io(error) => PartialError::Io(error),
+        exr::error::Error::Io(error) => match error.kind() {
+            // places in the file that cannot be
+            ErrorKind::InvalidInput | ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
+                PartialError::Damaged(format!("no part of it can be where it says: {error}"))
+            }
+            _ => PartialError::Io(error),
+        },
         other => PartialError::Other(format!("no OpenEXR file that can be read: {other}")),
     }
 }
