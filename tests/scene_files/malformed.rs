@@ -100,3 +100,14 @@ fn deep_nesting_is_refused() {
     let path = "a.".repeat(50_000) + "a=1";
     assert!(full(FULL_RON, Format::Ron, &[&path]).is_err());
 }
+
+/// A table that is no scene at all: told by its first thousand names, at once.
+#[test]
+fn a_hundred_thousand_unknown_fields_are_refused_within_a_second() {
+    let text: String = (0..100_000).map(|i| format!("k{i} = {i}\n")).collect();
+    let began = std::time::Instant::now();
+    let report = load_str(&text, Format::Toml, Path::new(""), &[]).expect_err("no scene");
+    assert!(began.elapsed().as_secs_f64() < 1.0, "{:?}", began.elapsed());
+    assert!(report.diagnostics.len() >= 999, "{}", report.diagnostics.len());
+    assert!(report.diagnostics.iter().any(|d| d.message == "there is no field `k7` here"));
+}

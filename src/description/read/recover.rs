@@ -190,6 +190,18 @@ impl Recovery<'_, '_> {
         }
     }
 
+    /// Reports and drops all at once what is no field: one by one, a table of a million would take hours.
+    fn no_fields(&mut self, entries: &mut Vec<Entry>, path: &Path, known: &'static [&'static str]) {
+        entries.retain(|entry| {
+            let is_known = known.contains(&entry.key.as_str());
+            if !is_known && self.diagnostics.len() < Report::MOST {
+                let message = format!("there is no field `{}` here", entry.key);
+                self.report(entry.key_span, path, message, Some(format!("known: {}", one_of(known))));
+            }
+            is_known
+        });
+    }
+
     fn unknown_field(
         &mut self,
         parent: &mut Node,
@@ -202,6 +214,10 @@ impl Recovery<'_, '_> {
             parent.value = Value::Hole;
             return Some(());
         };
+        if entries.len() > MOST_FIELDS {
+            self.no_fields(entries, path, known);
+            return Some(());
+        }
         let present: Vec<String> = entries.iter().map(|entry| entry.key.clone()).collect();
         let free = || known.iter().copied().filter(|field| !present.iter().any(|p| p == field));
         let near = nearest(name, free());
@@ -223,6 +239,9 @@ impl Recovery<'_, '_> {
         Some(())
     }
 }
+
+/// No type has as many fields: what has more is no slip of the pen.
+const MOST_FIELDS: usize = 1000;
 
 /// The node at child indices given from the inside out, and its path in the scene.
 fn walk<'a>(root: &'a mut Node, at: &[usize]) -> Option<(&'a mut Node, Path)> {
