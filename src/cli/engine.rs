@@ -98,9 +98,10 @@ fn number(variable: &impl Fn(&str) -> Option<String>, name: &str) -> Option<u32>
 }
 
 impl Engine {
-    /// Whether it says that this is a task of an array. LSF numbers them from 1 and gives 0 to all other jobs.
+    /// Whether it says that this is a task of an array. A number below those that it gives to tasks, as LSF's 0,
+    /// is that of a job which is none.
     fn runs(&self, variable: &impl Fn(&str) -> Option<String>) -> bool {
-        number(variable, self.index).is_some_and(|index| index > 0 || self.index != "LSB_JOBINDEX")
+        number(variable, self.index).is_some_and(|index| index >= self.first.1)
     }
 
     fn task(&self, of: Option<u32>, variable: &impl Fn(&str) -> Option<String>) -> Result<Task, String> {

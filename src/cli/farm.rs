@@ -67,10 +67,8 @@ pub fn run(args: &FarmArgs, terminal: &Terminal) -> Result<(), Failure> {
     }
     let outputs: Vec<PathBuf> = args.output.iter().map(|path| of_frame(path, args.reading.frame)).collect();
     targets_of(&outputs, super::args::ImageFormat::default())?;
-    if let Some(file) =
-        outputs.iter().find(|path| same_file(path, &args.parts)).or(Some(&args.parts).filter(|p| p.is_file()))
-    {
-        let message = format!("--parts {}: parts go to a folder, and that is a file", file.display());
+    if args.parts.is_file() || outputs.iter().any(|path| same_file(path, &args.parts)) {
+        let message = format!("--parts {}: parts go to a folder, and that is a file", args.parts.display());
         return Err(Failure::new(USAGE, message));
     }
     for path in &outputs {
