@@ -34,13 +34,14 @@ impl Placement {
         translation_only: true,
     };
 
-    /// `None` for a map that cannot be inverted: |det| < 1e-30·‖M‖³, or not finite.
+    /// `None` for a map that cannot be inverted: |det| < 1e-30·‖M‖³, or outside the normal numbers.
     pub fn new(world_from_object: DAffine3) -> Option<Placement> {
         let m = world_from_object.matrix3;
         let det = m.determinant();
         let norm = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).length();
-        let flat = det.abs() < 1e-30 * norm * norm * norm || norm == 0.0;
-        if !world_from_object.is_finite() || !det.is_finite() || flat {
+        let flat = det.abs() < 1e-30 * norm * norm * norm;
+        // Of a small map both sides of that may vanish.
+        if !world_from_object.is_finite() || !det.is_normal() || flat {
             return None;
         }
         let cofactors =

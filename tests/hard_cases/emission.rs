@@ -1,16 +1,18 @@
 //! Photons on their way: directions, which of them are stored, and an account of their power.
 
 use super::record::{Record, row, sized};
-use crate::photons::directions::{Judged, judge, lamp_in_a_sphere};
+use crate::photons::directions::{Judged, judge, judge_places, lamp_in_a_sphere};
 use crate::photons::lab::{Lab, estimate, lab};
 use crate::photons::ledger::medley;
 use crate::render::caustics::absent;
 use std::f64::consts::PI;
-use terrarium::math::DVec3;
 use terrarium::math::sampling::SphericalCell;
-use terrarium::scatter::{Aim, Scattered, Store};
+use terrarium::math::{DVec2, DVec3, Frame};
+use terrarium::scatter::{Aim, Photon, Scattered, Store};
 
 const POINT: &str = r#""a": point(position: (0, 0, 0), intensity: 3)"#;
+const SPHERE: &str = r#""a": sphere(center: (0, 0, 0), radius: 0.5, radiance: 3)"#;
+const DISK: &str = r#""a": disk(center: (0, 0, 0), normal: (1, 2, 2), radius: 0.5, radiance: 2)"#;
 
 #[test]
 fn s02_photon_directions() {
@@ -44,10 +46,18 @@ fn s02_photon_directions() {
             sized(0.02, 5e-3),
         );
         row.is("density towards the corners over an even one", corner, 1.0, sized(0.02, 5e-3));
+        for (halvings, ratio) in laid_over(&pass.photons).into_iter().enumerate() {
+            // Of N independent photons a sixteenth is known to 4/√N, and sixteen of them span 3.5 times that.
+            let bound = 1.0 + 4.0 * 4.0 / (pass.photons.len() as f64).sqrt();
+            let what = format!(
+                "faces of the icosahedron, {halvings} times halved, laid over each other: their fullest sixteenth over their emptiest"
+            );
+            row.at_most(&what, ratio, bound);
+        }
         for n in [sized(20_000, 20_000), sized(320_000, 4_000_000)] {
             let Judged { ratio, .. } = judge(&scene, n, |_| 3.0);
-            // Of independent photons: ± 3σ of n/320 each, and as much again.
-            let bound = 1.0 + 6.0 * (320.0 / n as f64).sqrt() + 6.0 * (320.0 / n as f64).sqrt();
+            // Of independent photons a cell is known to σ = √(320/n), and 320 of them span 5.8 σ.
+            let bound = 1.0 + 3.0 * (320.0 / n as f64).sqrt();
             row.at_most(
                 &format!("the fullest over the emptiest of 320 equal cells, {n} photons"),
                 ratio,
@@ -55,6 +65,37 @@ fn s02_photon_directions() {
             );
         }
     });
+}
+
+/// The faces of the icosahedron, halved none to three times, and each of these cells in sixteen equal parts: the power in
+/// the fullest of the sixteen over that in the emptiest, each summed over all cells.
+fn laid_over(photons: &[Photon]) -> [f64; 4] {
+    let planes = |cells: &[SphericalCell], step| -> Vec<[DVec3; 3]> {
+        cells.iter().step_by(step).map(SphericalCell::planes).collect()
+    };
+    let mut cells = SphericalCell::icosahedron().to_vec();
+    let faces = planes(&cells, 1);
+    // Cells 2i and 2i + 1 of a level are the halves of cell i of the level before.
+    let firsts = [(); 7].map(|()| {
+        cells = cells.iter().flat_map(SphericalCell::halves).collect();
+        planes(&cells, 2)
+    });
+    let within = |planes: &[DVec3; 3], dir: DVec3| planes.iter().all(|n| n.dot(dir) >= 0.0);
+    let mut parts = [[0.0f64; 16]; 4];
+    for photon in photons {
+        let dir = -photon.wi.as_dvec3();
+        // On an edge to the last bit it may be in none.
+        let mut cell = faces.iter().position(|face| within(face, dir)).unwrap_or(0);
+        for (level, first) in firsts.iter().enumerate() {
+            cell = 2 * cell + usize::from(!within(&first[cell], dir));
+            if level >= 3 {
+                parts[level - 3][cell % 16] += f64::from(photon.power.x);
+            }
+        }
+    }
+    parts.map(|of| {
+        of.iter().fold(0.0, |a: f64, b| a.max(*b)) / of.iter().fold(f64::INFINITY, |a, b| a.min(*b))
+    })
 }
 
 #[test]
@@ -65,16 +106,8 @@ fn h51_emission_is_uniform() {
         type Intensity = Box<dyn Fn(DVec3) -> f64>;
         let lamps: [(&str, &str, Intensity); 3] = [
             ("point, even", POINT, Box::new(|_| 3.0)),
-            (
-                "sphere, even",
-                r#""a": sphere(center: (0, 0, 0), radius: 0.5, radiance: 3)"#,
-                Box::new(|_| 3.0 * PI * 0.25),
-            ),
-            (
-                "disk, cosine",
-                r#""a": disk(center: (0, 0, 0), normal: (1, 2, 2), radius: 0.5, radiance: 2)"#,
-                Box::new(move |d| 2.0 * PI * 0.25 * d.dot(tilted).max(0.0)),
-            ),
+            ("sphere, even", SPHERE, Box::new(|_| 3.0 * PI * 0.25)),
+            ("disk, cosine", DISK, Box::new(move |d| 2.0 * PI * 0.25 * d.dot(tilted).max(0.0))),
         ];
         for (name, light, intensity) in lamps {
             let judged = judge(&lamp_in_a_sphere(light), n, intensity);
@@ -85,7 +118,28 @@ fn h51_emission_is_uniform() {
             );
             row.at_most("its first moment less the exact one, as a share of the power", judged.moment, 5e-3);
         }
+        places(row, n);
     });
+}
+
+/// Where on the lamps they start: even over what is seen of a sphere along a direction, and over a disk.
+fn places(row: &mut Record, n: u64) {
+    let flat = |frame: Frame, p: DVec3| DVec2::new(p.dot(frame.s), p.dot(frame.t)) / 0.5;
+    let normal = DVec3::new(1.0, 2.0, 2.0) / 3.0;
+    let sphere = lamp_in_a_sphere(SPHERE);
+    let disk = lamp_in_a_sphere(DISK);
+    for (name, (chi2, limit)) in [
+        ("a sphere along each direction", judge_places(&sphere, n, |p, dir| flat(Frame::around(dir), p))),
+        (
+            "a disk",
+            judge_places(&disk, n, |p, dir| {
+                flat(Frame::around(normal), p - dir * (p.dot(normal) / dir.dot(normal)))
+            }),
+        ),
+    ] {
+        let what = format!("χ² over 64 equal parts of {name}, where {n} photons start (p = 1e-3)");
+        row.at_most(&what, chi2, limit);
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::proofs::prove;
 use super::record::{Record, row, sized};
 use crate::plan::lab::{LAMP, own_plan, render, scene};
 use crate::render::caustics::absent;
+use crate::render::glass::fresnel;
 use crate::render::materials::plane;
 use std::path::Path;
 use terrarium::description::{Format, load_str};
@@ -156,6 +157,17 @@ fn h15_indices_below_one() {
             "(0, 3, 0.000001)",
         );
         row.is_close("a sky of radiance 1 seen in a box of index 1/1.5, head on", bubble, 0.04, 1e-5);
+        for deg in [30.0, 41.0, 42.0, 60.0] {
+            let (sin, cos) = f64::to_radians(deg).sin_cos();
+            let found = plane(
+                "transmission: 1, ior: 0.6666666666666667",
+                "",
+                "render: (max_depth: 1), background: 1,",
+                &format!("({}, {}, 0)", 3.0 * sin, 3.0 * cos),
+            );
+            let what = format!("the same under {deg}° (all of it from 41.81° on)");
+            row.is_close(&what, found, fresnel(cos, 1.0 / 1.5), 1e-4);
+        }
         for bad in ["0", "-1.5", "10", "11", "0.05", "NaN", "inf", "1e999"] {
             let scene = format!(
                 "(camera: (eye: (0, 0, 5), target: (0, 0, 0)),\nmaterials: {{ \"m\": (transmission: 1, ior: {bad}) }})"

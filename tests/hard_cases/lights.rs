@@ -171,7 +171,18 @@ fn h28_lights_without_light() {
         write_exr(&dir.path().join("black.exr"), 16, 8, |_, _| [0.0; 3]);
         std::fs::write(dir.path().join("line.obj"), "v 0 1 0\nv 1 1 0\nv 0 2 0\nv 1 2 0\nf 1 2 2\nf 1 2 3\n")
             .expect("the folder is writable");
-        let (mut lit, mut photons, mut scenes) = (0, 0, 0);
+        let (mut lit, mut dropped, mut passes, mut scenes) = (0, 0, 0, 0);
+        let mut look = |lights: &str, object: &str| {
+            // A ball of glass, so that photons would be made of what there is.
+            let more = format!(
+                r#""glass": (transmission: 1), "glow": (emission: 1)|(shape: sphere(radius: 0.1, center: (0, 0.5, 0)), material: "glass"), {object}"#
+            );
+            let picture = focused(floor(lights, &more)).folder(dir.path()).passes(8).render();
+            lit += picture.grey().iter().filter(|x| **x != 0.0).count() as u64;
+            dropped += picture.rendered.stats.rare_events.iter().map(|event| event.count).sum::<u64>();
+            passes += u64::from(picture.rendered.stats.photons.photons.is_some());
+            scenes += 1;
+        };
         for lights in [
             "",
             r#""a": point(position: (0, 1, 0), intensity: 0)"#,
@@ -182,16 +193,29 @@ fn h28_lights_without_light() {
             r#""a": environment(map: constant(1), scale: 0)"#,
             r#""a": environment(map: gradient(zenith: 0, horizon: 0, nadir: 0))"#,
             r#""a": environment(map: image(path: "black.exr"))"#,
+            r#""a": quad(corner: (0, 1, 0), edge_u: (1, 0, 0), edge_v: (0, 0, 1), radiance: 0)"#,
+            r#""a": disk(center: (0, 1, 0), normal: (0, -1, 0), radius: 0.1, radiance: 0)"#,
         ] {
-            // A ball of glass, so that photons would be made of what there is.
-            let more = r#""glass": (transmission: 1)|(shape: sphere(radius: 0.1, center: (0, 0.5, 0)), material: "glass")"#;
-            let picture = focused(floor(lights, more)).folder(dir.path()).passes(8).render();
-            lit += picture.grey().iter().filter(|x| **x != 0.0).count() as u64;
-            photons += picture.rendered.stats.photons.photons.as_ref().map_or(0, |p| p.stored);
-            scenes += 1;
+            look(lights, "");
         }
+        // Its area is below all numbers.
+        look(
+            "",
+            r#"(shape: mesh(path: "line.obj"), material: "glow", transform: [scale(1e-90), translate((0, 1, 0))])"#,
+        );
         row.none("pixels that are not exactly black, in scenes of no light or black ones", lit, 4 * scenes);
-        row.is("photons stored in them", photons as f64, 0.0, 0.0);
+        row.is("samples or photons dropped in them", dropped as f64, 0.0, 0.0);
+        row.is("scenes of them with a photon stage", passes as f64, 0.0, 0.0);
+        let lamp = r#""b": point(position: (0, 1, 0), intensity: 1)"#;
+        let view = |more: &str| {
+            let lights = format!("{lamp}, {more}");
+            shot(floor(&lights, "")).folder(dir.path()).passes(8).render()
+        };
+        let (alone, under) = (view(""), view(r#""a": environment(map: image(path: "black.exr"))"#));
+        row.holds(
+            "a lamp under a black sky lights the floor as it does alone, to the bit",
+            alone.mean() > 0.1 && alone.bits() == under.bits(),
+        );
         let more = r#""glow": (emission: 1)|(shape: mesh(path: "line.obj"), material: "glow", transform: [translate((0, 0, 9))])"#;
         let picture = shot(floor("", more)).folder(dir.path()).passes(8).render();
         row.holds("a lamp of one triangle without area and one with it renders", picture.is_sound());

@@ -185,8 +185,8 @@ fn images(folder: &Path) -> Vec<Case> {
     }
     let cuts = sized(2, 40);
     for (name, bytes) in &whole {
-        for i in 1..=cuts {
-            let length = bytes.len() * i / (cuts + 1);
+        // The last byte, too, is missed.
+        for length in (1..=cuts).map(|i| bytes.len() * i / (cuts + 1)).chain([bytes.len() - 1]) {
             list.push(case(format!("a {name} cut to {length} bytes"), "image", &bytes[..length]));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::record::{Record, row, sized};
 use crate::render::glass::{GLASS, unevenness};
-use crate::render::meshes::{cube, folder, icosphere};
+use crate::render::meshes::{Obj, cube, folder, icosphere};
 use crate::render::shot::{agreement, shot};
 use terrarium::build::bvh::{BoxRay, TriangleBvh};
 use terrarium::math::random::{Counter, Stage};
@@ -214,5 +214,48 @@ fn h11_missing_normals() {
         let pixels = flat.grey().len() as u64;
         let same = (agreement(&zero, &flat, 1e-5) * pixels as f64).round() as u64;
         row.share("pixels that are those of flat triangles, to 1e-5", same, pixels, 0.995);
+        some_missing(row);
     });
+}
+
+/// A smooth ball of which one corner of every second triangle has no usable normal, against the same ball with the
+/// triangle's own normals there.
+fn some_missing(row: &mut Record) {
+    let dir = folder();
+    let ball = icosphere(1);
+    let with = |own: Option<DVec3>| {
+        let mut apart = Obj { vertices: Vec::new(), normals: Vec::new(), faces: Vec::new() };
+        for (i, face) in ball.faces.iter().enumerate() {
+            let corners: Vec<DVec3> = face.iter().map(|&v| ball.vertices[v]).collect();
+            let flat = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+            let first = apart.vertices.len();
+            apart.faces.push((first..first + 3).collect());
+            apart.vertices.extend(&corners);
+            apart.normals.extend(corners.iter().map(|p| p.normalize()));
+            if i % 2 == 0 {
+                apart.normals[first + i % 3] = own.unwrap_or(flat);
+            }
+        }
+        apart.write(&dir.path().join("ball.obj"));
+        shot(
+            r#"(camera: (eye: (0, 2, 4), target: (0, 0, 0)), image: (width: 64, height: 64), antialiasing: none,
+            materials: { "white": (diffuse: 1), "glass": (transmission: 1) }, lights: { "sun": directional(direction: (-1, -1, -1), irradiance: 1), "sky": environment(map: gradient(zenith: 1, horizon: 0.5, nadir: 0)) },
+            objects: [(shape: mesh(path: "ball.obj"), material: "white"), (shape: mesh(path: "ball.obj"), material: "glass", transform: [translate((1.5, 0, 0))])])"#,
+        )
+        .folder(dir.path())
+        .render()
+    };
+    let flat = with(None);
+    let pixels = flat.grey().len() as u64;
+    for (what, none) in [
+        ("zero", DVec3::ZERO),
+        ("NaN", DVec3::NAN),
+        ("infinite", DVec3::new(f64::INFINITY, 0.0, 1.0)),
+        ("minus zero", -DVec3::ZERO),
+    ] {
+        let picture = with(Some(none));
+        let same = (agreement(&picture, &flat, 1e-4) * pixels as f64).round() as u64;
+        let what = format!("some normals of a smooth ball are {what}: pixels as with their triangles' own");
+        row.share(&what, if picture.is_sound() { same } else { 0 }, pixels, 0.995);
+    }
 }

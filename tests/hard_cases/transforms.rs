@@ -115,6 +115,10 @@ fn h25_singular_transforms() {
             "scale(0)",
             "matrix(((1, 2, 0, 0), (2, 4, 0, 0), (0, 0, 1, 0)))",
             "scale((1, 1e-40, 1))",
+            "scale(1e-110)",
+            "scale(1e-60), scale(1e-60)",
+            "scale(1e-170)",
+            "scale(1e110)",
         ] {
             let scene = format!(
                 "(camera: (eye: (0, 0, 5), target: (0, 0, 0)), materials: {{ \"white\": (diffuse: 1) }},\n\

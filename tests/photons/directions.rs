@@ -2,8 +2,9 @@
 //! lamp, over 320 bins of equal solid angle that are no cells of the emission.
 
 use super::lab::{Lab, lab};
+use std::f64::consts::TAU;
 use terrarium::math::sampling::SphericalCell;
-use terrarium::math::{DMat3, DVec3};
+use terrarium::math::{DMat3, DVec2, DVec3};
 use terrarium::scatter::{Aim, Store};
 
 fn bins() -> Vec<SphericalCell> {
@@ -54,6 +55,28 @@ pub(super) fn assert_travels(scene: &Lab, intensity: impl Fn(DVec3) -> f64) {
     assert!(moment < 5e-3, "the first moment is off by {moment}");
 }
 
+/// Of χ² at p = 1e-3, by Wilson and Hilferty; stratified photons stay far below.
+fn chi2_limit(degrees: f64) -> f64 {
+    degrees * f64::powi(1.0 - 2.0 / (9.0 * degrees) + 3.09 * f64::sqrt(2.0 / (9.0 * degrees)), 3)
+}
+
+/// χ² over 64 equal parts of the unit disk, eight rings of eight sectors, of where photons' lines cross it, and its
+/// limit at p = 1e-3. `crossing`: from a photon's place and its direction.
+pub(crate) fn judge_places(scene: &Lab, n: u64, crossing: impl Fn(DVec3, DVec3) -> DVec2) -> (f64, f64) {
+    let mut found = [[0.0f64; 2]; 64];
+    for photon in &scene.passes(Store::Direct, Aim::Scene, 1, n)[0].photons {
+        let d = crossing(scene.place(photon), -photon.wi.as_dvec3().normalize());
+        let ring = ((8.0 * d.length_squared()) as usize).min(7);
+        let sector = ((8.0 * (d.y.atan2(d.x) / TAU + 0.5)) as usize).min(7);
+        let power = f64::from(photon.power.x);
+        found[8 * ring + sector][0] += power;
+        found[8 * ring + sector][1] += power * power;
+    }
+    let expected = found.iter().map(|part| part[0]).sum::<f64>() / 64.0;
+    let part = |[sum, squares]: [f64; 2]| (sum - expected).powi(2) / squares.max(f64::MIN_POSITIVE);
+    (found.into_iter().map(part).sum(), chi2_limit(63.0))
+}
+
 pub(crate) fn judge(scene: &Lab, n: u64, intensity: impl Fn(DVec3) -> f64) -> Judged {
     let (bins, turn) = (bins(), turn());
     let planes: Vec<[DVec3; 3]> = bins.iter().map(SphericalCell::planes).collect();
@@ -94,8 +117,7 @@ pub(crate) fn judge(scene: &Lab, n: u64, intensity: impl Fn(DVec3) -> f64) -> Ju
             worst = worst.max((sum / expected - 1.0).abs());
         }
     }
-    // p = 1e-3 by Wilson and Hilferty; stratified photons stay far below.
-    let limit = degrees * f64::powi(1.0 - 2.0 / (9.0 * degrees) + 3.09 * f64::sqrt(2.0 / (9.0 * degrees)), 3);
+    let limit = chi2_limit(degrees);
     let mut first = DVec3::ZERO;
     for bin in &bins {
         for i in 0..m * m {

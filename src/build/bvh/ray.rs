@@ -125,7 +125,8 @@ impl<L: Lanes> Slabs<L> {
 
     /// Entries into the node's eight boxes (not below 0), and which are entered by `limit`.
     ///
-    /// 0·∞ = NaN arises for a ray in the plane of a face; `min` and `max` then ignore that slab.
+    /// 0·∞ = NaN arises for a ray in the plane of a far face; `min` then ignores that slab, and for y also that
+    /// of x: the box may be entered in vain, but is not missed.
     #[inline(always)]
     pub fn enter(&self, lanes: L, node: Node, limit: L::F) -> (L::F, u32) {
         let (near, far) = (self.near(lanes, node), self.far(lanes, node));
