@@ -51,6 +51,8 @@ struct Stage {
     name: String,
     unit: String,
     done: u64,
+    /// Of `done`, by an earlier run.
+    earlier: u64,
     total: u64,
     began: Instant,
     /// When a line was printed last, and how much of the stage it told.
@@ -170,6 +172,7 @@ impl Progress for Reporter {
             name: stage.to_string(),
             unit: unit.to_string(),
             done: 0,
+            earlier: 0,
             total,
             began: now,
             told: (now, 0.0),
@@ -211,6 +214,13 @@ impl Progress for Reporter {
         if due {
             self.tell(stage);
             stage.told = (Instant::now(), stage.share());
+        }
+    }
+
+    fn resume(&self, done: u64) {
+        if let Some(stage) = self.stage().as_mut() {
+            stage.done = stage.done.saturating_add(done);
+            stage.earlier = stage.earlier.saturating_add(done);
         }
     }
 
@@ -285,15 +295,19 @@ impl Stage {
     }
 
     fn rate(&self) -> String {
-        let per_second = self.done as f64 / self.began.elapsed().as_secs_f64().max(1e-3);
+        let per_second = self.done_here() as f64 / self.began.elapsed().as_secs_f64().max(1e-3);
         format!("{} {}/s", short(per_second), self.unit)
     }
 
     /// At the rate so far; unknown before anything is done.
     fn seconds_left(&self) -> Option<f64> {
         let left = self.total.saturating_sub(self.done) as f64;
-        (self.done > 0)
-            .then(|| (self.began.elapsed().as_secs_f64() * left / self.done as f64 * 10.0).round() / 10.0)
+        let done = self.done_here();
+        (done > 0).then(|| (self.began.elapsed().as_secs_f64() * left / done as f64 * 10.0).round() / 10.0)
+    }
+
+    fn done_here(&self) -> u64 {
+        self.done - self.earlier
     }
 }
 
@@ -327,7 +341,8 @@ mod tests {
     fn no_stage_shows_more_than_99_percent() {
         let now = Instant::now();
         let (name, unit) = ("trace".to_string(), "tiles".to_string());
-        let mut stage = Stage { name, unit, done: 0, total: 8, began: now, told: (now, 0.0), bar: None };
+        let mut stage =
+            Stage { name, unit, done: 0, earlier: 0, total: 8, began: now, told: (now, 0.0), bar: None };
         assert_eq!((stage.share(), stage.seconds_left()), (0.0, None));
         stage.done = 4;
         assert_eq!(stage.share(), 0.5);
@@ -335,6 +350,20 @@ mod tests {
         assert_eq!((stage.share(), stage.seconds_left()), (0.99, Some(0.0)));
         stage.total = 0;
         assert_eq!(stage.share(), 0.99);
+    }
+
+    /// 300 of 600 were there, 3 more took 10 s: 990 s for the others.
+    #[test]
+    fn what_an_earlier_run_did_is_not_of_this_ones_rate() {
+        let now = Instant::now();
+        let began = now - Duration::from_secs(10);
+        let (name, unit) = ("trace".to_string(), "tiles".to_string());
+        let mut stage =
+            Stage { name, unit, done: 300, earlier: 300, total: 600, began, told: (now, 0.0), bar: None };
+        assert_eq!(stage.seconds_left(), None);
+        stage.done = 303;
+        let left = stage.seconds_left().expect("something is done");
+        assert!((990.0..1000.0).contains(&left), "{left}");
     }
 
     #[test]

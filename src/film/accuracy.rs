@@ -11,8 +11,9 @@
 //! two begin a part of their own, independent of the others until it is full.
 //!
 //! *Bias.* The blur of the density estimate goes as the square of its radius where light is smooth (Silverman
-//! 1986, 4.3), so the estimates at r and r/√2 differ by half of it. Products of two halves of the passes, whose
-//! noise is independent, estimate its square without the noise.
+//! 1986, 4.3), so the estimates at √2·r and r differ by as much, those at r and r/√2 by half of it. Products of two
+//! halves of the passes, whose noise is independent, estimate its square without the noise; the first has an
+//! eighth of the second's chance, the second counts where it tells more than chance may.
 //!
 //! What no pass can tell is not in it: the depth limit, three colours, facets of meshes, and paths so rare
 //! that none was found.

@@ -217,6 +217,10 @@ pub trait Progress: Sync {
     fn start(&self, stage: &str, total: u64, unit: &str);
     /// `done` more units are finished.
     fn advance(&self, done: u64);
+    /// `done` units of the stage that has begun were finished by an earlier run.
+    fn resume(&self, done: u64) {
+        self.advance(done);
+    }
     /// The stage is over.
     fn finish(&self);
     /// What the render will take is known, and tracing begins.

@@ -58,7 +58,7 @@ pub(super) fn trace(
     let tiles = film.tiles.len() as u64;
     let left: u64 = steps.passes().min(planned.passes.into());
     progress.start("trace", tiles * (u64::from(done) + left), "tiles");
-    progress.advance(tiles * u64::from(done));
+    progress.resume(tiles * u64::from(done));
     let mut maps = first;
     let mut of = ready.first_pass;
     let (mut at, mut counted, mut halted) = (begin, false, false);

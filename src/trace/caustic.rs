@@ -4,12 +4,13 @@
 //! shading normal. Each is weighed by cosθ_shading/cosθ_geometric (Veach 1997, 5.3), so that photons
 //! and shadow rays agree on smooth meshes and under normal maps.
 
-use super::path::{Branch, COVERAGE, INNER};
+use super::path::{Branch, COVERAGE, INNER, OUTER};
 use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
-use crate::index::{Caustics, Gathered};
+use crate::index::{Caustics, Gathered, Reach};
 use crate::math::random::Sequence;
 use crate::math::{Frame, Ray, Vec3};
+use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::f64::consts::TAU;
 
 /// Counts of trials whose mean is taken, and the most trials of each: a surface that fills less of the disc
@@ -26,8 +27,8 @@ pub struct Caustic {
     /// Photons in the estimate, and the radius that they were gathered within, metres.
     pub photons: u32,
     pub radius: f32,
-    /// What the estimate's blur adds; known only where it is looked at.
-    pub bias: Vec3,
+    /// What the estimate's blur adds, by [`super::Look`]; known only where it is looked at.
+    pub bias: [Vec3; 2],
 }
 
 impl Tracer<'_> {
@@ -70,19 +71,28 @@ impl Tracer<'_> {
         }
         let sequence = branch.sequence.dimension(COVERAGE);
         let correction = self.edge_correction(caustics, surface, shading, &gathered, sequence, tally);
-        let bias = if tally.probing {
-            // The blur's bias goes as r² (Silverman 1986, 4.3): half of it is gone at r/√2.
-            let inner = gather(Some(gathered.radius * std::f32::consts::FRAC_1_SQRT_2));
-            let sequence = branch.sequence.dimension(INNER);
-            let inner_correction = self.edge_correction(caustics, surface, shading, &inner, sequence, tally);
-            2.0 * (gathered.radiance * correction - inner.radiance * inner_correction)
+        let probing = tally.probing;
+        let mut look = |within: f32, dimension: u64| {
+            let other = gather(Some(within));
+            let sequence = branch.sequence.dimension(dimension);
+            let correction = self.edge_correction(caustics, surface, shading, &other, sequence, tally);
+            other.radiance * correction
+        };
+        let radiance = gathered.radiance * correction;
+        // The blur's bias goes as r² (Silverman 1986, 4.3): there is twice of it at √2·r, half of it at r/√2.
+        let bias = if probing {
+            let narrow = 2.0 * (radiance - look(gathered.radius * FRAC_1_SQRT_2, INNER));
+            // A radius that photons have chosen leaves them no even chance just beyond it.
+            let chosen = matches!(caustics.reach, Reach::Nearest { .. });
+            let wide = if chosen { narrow } else { look(gathered.radius * SQRT_2, OUTER) - radiance };
+            [wide, narrow]
         } else {
-            Vec3::ZERO
+            [Vec3::ZERO; 2]
         };
         let area = std::f32::consts::PI * gathered.radius * gathered.radius;
         let density = gathered.photons as f32 / area;
         Caustic {
-            radiance: gathered.radiance * correction,
+            radiance,
             density: density * correction,
             photons: gathered.photons,
             radius: gathered.radius,

@@ -23,7 +23,7 @@ use crate::index::Caustics;
 use crate::math::{DVec3, Health, Place, Vec3};
 use crate::plan::Plan;
 pub use path::Scratch;
-pub use probe::{Kind, LUMINANCE, Parts, Probe, Probes};
+pub use probe::{Kind, LUMINANCE, Look, Parts, Probe, Probes};
 pub use record::{
     Event, Fate, InterfaceRecord, LightRecord, Met, PhotonRecord, Recorder, SampleRecord, Sent, Vertex,
 };
@@ -64,12 +64,21 @@ pub struct Tally {
     pub watch: Watch,
     /// Of one thread, on tiles.
     pub seconds: f64,
-    /// Whether the bias of photons is looked at; and what it is, of caustic and indirect light, summed over
-    /// the samples since it was cleared.
+    /// Whether the bias of photons is looked at; and what it is by [`Look`], of caustic and indirect light,
+    /// summed over the samples since it was cleared.
     probing: bool,
-    bias: [Vec3; 2],
+    bias: [[Vec3; 2]; 2],
     /// Takes down what is traced, where that is asked for.
     recorder: Option<Box<Recorder>>,
+}
+
+impl Tally {
+    /// Notes the blur's bias, by [`Look`], of caustic (0) or indirect (1) light that the camera sees so much of.
+    fn blurred(&mut self, kind: usize, throughput: Vec3, bias: [Vec3; 2]) {
+        for (sums, seen) in self.bias.iter_mut().zip(bias) {
+            sums[kind] += throughput * seen;
+        }
+    }
 }
 
 /// Paths that the depth limit has cut.

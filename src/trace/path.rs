@@ -72,6 +72,7 @@ pub(super) const REFRACTED: u64 = 5;
 pub(super) const BOUNCE: u64 = 7;
 pub(super) const COVERAGE: u64 = 8;
 pub(super) const INNER: u64 = 10;
+pub(super) const OUTER: u64 = 11;
 const WAVELENGTH: u64 = 9;
 
 /// Dimensions of a camera sample.
@@ -379,7 +380,7 @@ impl Tracer<'_> {
             let caustic = self.caustic(caustics, branch, base, surface, shading, tally);
             radiance += caustic.radiance;
             tally.note(|recorder| recorder.caustic(&caustic));
-            tally.bias[0] += branch.throughput * caustic.bias;
+            tally.blurred(0, branch.throughput, caustic.bias);
             if branch.bounces == 0 {
                 sample.caustic += branch.throughput * caustic.radiance;
                 sample.photon_density += branch.throughput.max_element() * caustic.density;
@@ -397,7 +398,7 @@ impl Tracer<'_> {
             let gathered = self.caustic(indirect, branch, base, surface, shading, tally);
             tally.note(|recorder| recorder.indirect(&gathered));
             sample.indirect += branch.throughput * gathered.radiance;
-            tally.bias[1] += branch.throughput * gathered.bias;
+            tally.blurred(1, branch.throughput, gathered.bias);
             radiance += gathered.radiance;
         }
         if self.indirect.is_none()

@@ -103,6 +103,19 @@ impl Kind {
     pub const ALL: [Kind; 3] = [Kind::Rest, Kind::Caustic, Kind::Indirect];
 }
 
+/// How the blur of a density estimate is told: from a second estimate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// With √2 times the radius: an eighth of the other's noise in the squared bias.
+    Wide,
+    /// With the radius over √2: sees finer detail.
+    Narrow,
+}
+
+fn added(a: [[Vec3; 2]; 2], b: [[Vec3; 2]; 2]) -> [[Vec3; 2]; 2] {
+    std::array::from_fn(|i| std::array::from_fn(|k| a[i][k] + b[i][k]))
+}
+
 /// How passes are divided into the parts that are compared with each other: the first quarter or so of them, as
 /// much again, and the later half. The first two together are the largest power of two below their number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -143,9 +156,9 @@ pub struct Probe {
     squares: [Vec3; 3],
     /// Of all light: the luminance of the brightest pass.
     brightest: f32,
-    /// Sums of the estimated bias of caustic and indirect light, of passes that looked at it; of the first
-    /// half, and of what came later.
-    bias: [[Vec3; 2]; 2],
+    /// Sums of the estimated bias by [`Look`] of caustic and indirect light, of passes that looked at it; of the
+    /// first half, and of what came later.
+    bias: [[[Vec3; 2]; 2]; 2],
     looked: [u32; 2],
     /// Σ ½ (a − b)² of the rest over pairs of samples at one place.
     pairs: Vec3,
@@ -176,8 +189,10 @@ impl Probe {
         if let Some(bias) = value.bias {
             let half = part / 2;
             self.looked[half] += 1;
-            self.bias[half][0] += bias[0].as_vec3();
-            self.bias[half][1] += bias[1].as_vec3();
+            for (sums, seen) in self.bias[half].iter_mut().zip(bias) {
+                sums[0] += seen[0].as_vec3();
+                sums[1] += seen[1].as_vec3();
+            }
         }
         if let Some(pair) = value.pair {
             self.pairs += (0.5 * pair * pair).as_vec3();
@@ -191,8 +206,8 @@ impl Probe {
         self.rest = [first + second, later, DVec3::ZERO];
         let [first, second, later] = self.counts;
         self.counts = [first + second, later, 0];
-        let both = |i: usize| self.bias[0][i] + self.bias[1][i];
-        self.bias = [[both(0), both(1)], [Vec3::ZERO; 2]];
+        let [first, later] = self.bias;
+        self.bias = [added(first, later), Default::default()];
         self.looked = [self.looked[0] + self.looked[1], 0];
     }
 
@@ -216,8 +231,7 @@ impl Probe {
         for i in 0..2 {
             self.photons[i] += other.photons[i];
             self.looked[i] += other.looked[i];
-            self.bias[i][0] += other.bias[i][0];
-            self.bias[i][1] += other.bias[i][1];
+            self.bias[i] = added(self.bias[i], other.bias[i]);
         }
         self.brightest = self.brightest.max(other.brightest);
         self.pairs += other.pairs;
@@ -280,10 +294,10 @@ impl Probe {
 
     /// Estimates of the bias of caustic and of indirect light, from the first part of the passes and from the
     /// later ones, whose errors are independent. `None` where either looked at none.
-    pub fn biases(&self) -> Option<[[DVec3; 2]; 2]> {
+    pub fn biases(&self, look: Look) -> Option<[[DVec3; 2]; 2]> {
         let of = |half: usize| {
             let mean = |sum: Vec3| sum.as_dvec3() / f64::from(self.looked[half]);
-            (self.looked[half] > 0).then(|| self.bias[half].map(mean))
+            (self.looked[half] > 0).then(|| self.bias[half][look as usize].map(mean))
         };
         Some([of(0)?, of(1)?])
     }
@@ -318,7 +332,7 @@ mod tests {
     fn probe(values: impl IntoIterator<Item = f64>) -> Probe {
         let mut probe = Probe::default();
         for v in values {
-            let bias = Some([DVec3::splat(v), DVec3::ZERO]);
+            let bias = Some([[DVec3::splat(v), DVec3::ZERO]; 2]);
             let value = PixelValue { radiance: DVec3::splat(v), bias, ..PixelValue::default() };
             probe.add(3, 4, &value, None);
         }
@@ -332,7 +346,7 @@ mod tests {
         assert_eq!((four.passes(), four.first_half()), (4, 2));
         assert_eq!(four.change().x, 1.5 * 1.5);
         assert_eq!(four.change_before().x, 1.0);
-        assert_eq!(four.biases().map(|b| b.map(|[caustic, _]| caustic.x)), Some([2.0, 5.0]));
+        assert_eq!(four.biases(Look::Wide).map(|b| b.map(|[caustic, _]| caustic.x)), Some([2.0, 5.0]));
         assert!((four.variance(Kind::Rest).x - 13.0 / 3.0).abs() < 1e-6);
         let six = probe([1.0, 3.0, 4.0, 6.0, 0.0, 1.0]);
         assert_eq!((six.passes(), six.first_half()), (6, 4));
@@ -350,7 +364,7 @@ mod tests {
             for share in 0..3 {
                 let mut part = Probe::default();
                 for i in (0..n).filter(|i| i % 3 == share) {
-                    let bias = Some([DVec3::splat(value(i)), DVec3::ZERO]);
+                    let bias = Some([[DVec3::splat(value(i)), DVec3::ZERO]; 2]);
                     let value =
                         PixelValue { radiance: DVec3::splat(value(i)), bias, ..PixelValue::default() };
                     part.add(3, 4, &value, parts.of(5 + i));

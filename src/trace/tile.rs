@@ -29,8 +29,9 @@ pub struct PixelValue {
     pub object: u32,
     /// Samples, or cells of the adaptive subdivision, that the value is made of.
     pub samples: u32,
-    /// What the density estimate's blur adds to caustic and indirect light; known for some probes.
-    pub bias: Option<[DVec3; 2]>,
+    /// What the density estimate's blur adds, by [`Look`](super::Look), to caustic and indirect light; known for
+    /// some probes.
+    pub bias: Option<[[DVec3; 2]; 2]>,
     /// How two samples at one place differ in what photons did not bring; known for some probes.
     pub pair: Option<DVec3>,
 }
@@ -220,7 +221,7 @@ impl Tile {
         if let Some(squares) = self.squares.get_mut(i) {
             *squares += square;
         }
-        if let (Some((sum, looked)), Some([caustic, indirect])) = (self.bias.get_mut(i), value.bias) {
+        if let (Some((sum, looked)), Some([[caustic, indirect], _])) = (self.bias.get_mut(i), value.bias) {
             sum.add(caustic + indirect);
             *looked += 1;
         }

@@ -101,13 +101,30 @@ fn bias_is_told_apart_from_its_noise() {
         let film = film(64, |_, _| {
             let (light, guess) = (1.0 + bias + 0.1 * dice.normal(), bias + dice.normal());
             let caustic = DVec3::splat(light);
-            PixelValue { caustic, bias: Some([DVec3::splat(guess), DVec3::ZERO]), ..grey(light) }
+            PixelValue { caustic, bias: Some([[DVec3::splat(guess), DVec3::ZERO]; 2]), ..grey(light) }
         });
         let found = accuracy(&film);
         let expected = bias / ((1.0 + bias) * 1.31_f64.sqrt());
         assert!((found.bias - expected).abs() < 0.015, "{found:?}, expected {expected}");
         let caustic = found.by_effect.iter().find(|part| part.effect == "caustics").expect("its part");
         assert!(caustic.share > 0.99, "{found:?}");
+    }
+}
+
+/// What a smaller radius shows beyond a larger one is stated where it is more than chance; noise alone is not.
+#[test]
+fn the_narrow_look_counts_where_it_sees_more() {
+    for (narrow, noise, expected) in [(0.2, 1.0, 0.2), (0.05, 5.0, 0.05), (0.0, 5.0, 0.05)] {
+        let mut dice = Dice(29);
+        let film = film(64, |_, _| {
+            let light = 1.0 + 0.1 * dice.normal();
+            let look = |bias: f64| [DVec3::splat(bias), DVec3::ZERO];
+            let bias = [look(0.05 + 0.1 * dice.normal()), look(narrow + noise * dice.normal())];
+            PixelValue { caustic: DVec3::splat(light), bias: Some(bias), ..grey(light) }
+        });
+        let found = accuracy(&film);
+        let expected = expected / 1.31_f64.sqrt();
+        assert!((found.bias / expected - 1.0).abs() < 0.15, "{found:?}, expected {expected}");
     }
 }
 

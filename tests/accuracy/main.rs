@@ -1,5 +1,6 @@
 //! What a render says of its own error, against the error.
 
+mod blur;
 mod estimate;
 mod resting;
 mod stated;

@@ -5,7 +5,7 @@ use super::sums::{Row, Sums};
 use super::{Accuracy, Part};
 use crate::film::brightness::Brightness;
 use crate::math::random::{combine, mix};
-use crate::trace::{Measured, Probe};
+use crate::trace::{Look, Measured, Probe};
 use std::collections::BTreeMap;
 
 /// Groups of probes, to see how much an estimate hangs on some of them.
@@ -28,6 +28,8 @@ pub(super) struct Classes {
     pixels: f64,
     /// The class with the most probes.
     main: u32,
+    /// How the bias is told, of caustic, indirect and both.
+    looks: [Look; 3],
     /// Whether noise is that of independent passes, whatever the probes tell.
     pub independent: bool,
 }
@@ -57,13 +59,38 @@ impl Classes {
         }
         let main = classes.iter().max_by(|a, b| a.1.probes().total_cmp(&b.1.probes())).map(|(n, _)| *n)?;
         let pixels = classes.values().map(|class| class.independent.count).sum::<u64>() as f64;
-        (!probes.is_empty() && pixels > 0.0).then_some(Classes { classes, pixels, main, independent: false })
+        if probes.is_empty() || pixels <= 0.0 {
+            return None;
+        }
+        let mut classes = Classes { classes, pixels, main, looks: [Look::Wide; 3], independent: false };
+        classes.looks = std::array::from_fn(|which| classes.look(which));
+        Some(classes)
     }
 
     /// The squared error, as it is without one of the groups of probes.
     pub fn squared(&self, without: Option<usize>) -> f64 {
         let noise: f64 = self.classes.iter().map(|(n, class)| self.noise(*n, class, without)).sum();
-        noise + self.probed(without).bias(2)
+        noise + self.bias(2, without)
+    }
+
+    /// The squared bias: 0 caustic, 1 indirect, 2 both.
+    fn bias(&self, which: usize, without: Option<usize>) -> f64 {
+        self.probed(without).bias(self.looks[which], which).max(0.0)
+    }
+
+    /// The look that tells most of a bias: the narrow one where it sees more than the wide one by twice what
+    /// chance may do to the difference, told by the jackknife over groups of probes; else the one with less noise.
+    fn look(&self, which: usize) -> Look {
+        let more = |without: Option<usize>| {
+            let probed = self.probed(without);
+            probed.bias(Look::Narrow, which) - probed.bias(Look::Wide, which)
+        };
+        let each: Vec<f64> = self.groups().map(|group| more(Some(group))).collect();
+        let n = each.len() as f64;
+        let mean = each.iter().sum::<f64>() / n;
+        let squares: f64 = each.iter().map(|one| (one - mean) * (one - mean)).sum();
+        let chance = (squares * (n - 1.0) / n).sqrt();
+        if more(None) > 2.0 * chance { Look::Narrow } else { Look::Wide }
     }
 
     /// What a class adds to the squared noise of the picture.
@@ -126,11 +153,10 @@ impl Classes {
                 }
             }
         }
-        let probed = self.probed(None);
         let noise: f64 = rows.iter().map(|row| row.noise).sum();
         let biases = rows.iter().map(|row| match row.effect {
-            "caustics" => probed.bias(0),
-            "indirect" => probed.bias(1),
+            "caustics" => self.bias(0, None),
+            "indirect" => self.bias(1, None),
             _ => 0.0,
         });
         let all: Vec<(&Row, f64)> =
@@ -143,14 +169,14 @@ impl Classes {
             noise: row.noise.sqrt(),
             bias: bias.sqrt(),
         };
-        let error = (noise + probed.bias(2)).sqrt();
+        let error = (noise + self.bias(2, None)).sqrt();
         Accuracy {
             passes: self.classes.keys().copied().max().unwrap_or(0),
             mean_passes,
             error,
             interval: [error; 2],
             noise: noise.sqrt(),
-            bias: probed.bias(2).sqrt(),
+            bias: self.bias(2, None).sqrt(),
             by_effect: all.iter().map(part).collect(),
             gain: self.classes.iter().next_back().map_or(1.0, |(n, class)| self.gain(*n, class, None)),
         }

@@ -4,7 +4,7 @@ use super::independent::relative;
 use super::{FLOOR, weight};
 use crate::film::brightness::Brightness;
 use crate::math::DVec3;
-use crate::trace::{Measured, Probe, Resting};
+use crate::trace::{Look, Measured, Probe, Resting};
 
 /// Sums over a block's pixels and probes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,7 +37,9 @@ pub(in crate::film) fn done<'a>(
         block.noise += gain * relative(&pixel, picture, floor);
     }
     for probe in probes {
-        let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases() else { continue };
+        let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases(Look::Wide) else {
+            continue;
+        };
         let squared: DVec3 = (caustic + indirect) * (caustic_later + indirect_later);
         let block = &mut blocks[resting.block(probe.x, probe.y)];
         block.probes += 1.0;

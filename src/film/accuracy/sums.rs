@@ -4,7 +4,7 @@ use super::law::Law;
 use super::weight;
 use crate::film::brightness::Brightness;
 use crate::math::DVec3;
-use crate::trace::{Kind, Probe};
+use crate::trace::{Kind, Look, Probe};
 
 /// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
 /// those of smooth things in one dimension.
@@ -25,8 +25,8 @@ pub(super) struct Sums {
     variance: [f64; 3],
     /// Of the rest: the last change of the mean, and the one before.
     changes: [f64; 2],
-    /// Products of two halves' biases, of caustic, indirect and both; and how many.
-    bias: [f64; 3],
+    /// Products of two halves' biases by [`Look`], of caustic, indirect and both; and how many.
+    bias: [[f64; 3]; 2],
     biased: f64,
     /// Of probes that know what is left at one place: that, and all of the variance of the rest.
     place: [f64; 2],
@@ -43,11 +43,14 @@ impl Sums {
         }
         self.changes[0] += relative(probe.change());
         self.changes[1] += relative(probe.change_before());
-        if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases() {
-            self.biased += 1.0;
-            self.bias[0] += relative(caustic * caustic_later);
-            self.bias[1] += relative(indirect * indirect_later);
-            self.bias[2] += relative((caustic + indirect) * (caustic_later + indirect_later));
+        for look in [Look::Wide, Look::Narrow] {
+            if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases(look) {
+                self.biased += 0.5;
+                let bias = &mut self.bias[look as usize];
+                bias[0] += relative(caustic * caustic_later);
+                bias[1] += relative(indirect * indirect_later);
+                bias[2] += relative((caustic + indirect) * (caustic_later + indirect_later));
+            }
         }
         if let Some(at_one_place) = probe.variance_at_one_place() {
             self.place[0] += relative(at_one_place);
@@ -62,7 +65,8 @@ impl Sums {
             |mine: &mut [f64], theirs: &[f64]| mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += times * b);
         add(&mut sum.variance, &other.variance);
         add(&mut sum.changes, &other.changes);
-        add(&mut sum.bias, &other.bias);
+        add(&mut sum.bias[0], &other.bias[0]);
+        add(&mut sum.bias[1], &other.bias[1]);
         add(&mut sum.place, &other.place);
         sum.count += times * other.count;
         sum.biased += times * other.biased;
@@ -93,9 +97,9 @@ impl Sums {
         [s2 * law.of(part, passes), law.0]
     }
 
-    /// The squared bias: 0 caustic, 1 indirect, 2 both.
-    pub fn bias(&self, which: usize) -> f64 {
-        (self.bias[which] / self.biased.max(1.0)).max(0.0)
+    /// The squared bias: 0 caustic, 1 indirect, 2 both. Below 0 by chance where it is small.
+    pub fn bias(&self, look: Look, which: usize) -> f64 {
+        self.bias[look as usize][which] / self.biased.max(1.0)
     }
 
     /// The squared noise over what it would be of independent passes.

@@ -75,8 +75,8 @@ fn look(tally: &mut Tally, probe: bool, bias: bool, pass: u32) {
 /// Ends to look, with what was found in so many samples.
 fn look_up(value: &mut PixelValue, tally: &Tally, samples: u32) {
     if tally.probing {
-        let bias = tally.bias.map(|sum| sum.as_dvec3() / f64::from(samples));
-        value.bias = bias.iter().all(|b| b.is_finite()).then_some(bias);
+        let bias = tally.bias.map(|look| look.map(|sum| sum.as_dvec3() / f64::from(samples)));
+        value.bias = bias.iter().flatten().all(|b| b.is_finite()).then_some(bias);
     }
 }
 
