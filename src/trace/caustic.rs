@@ -66,12 +66,13 @@ impl Tracer<'_> {
             })
         };
         let gathered = gather(None);
-        if gathered.photons == 0 {
+        let probing = tally.probing;
+        // A probe looks at what is just beyond the radius in any case, or its mean would be off.
+        if gathered.photons == 0 && !probing {
             return Caustic { radius: gathered.radius, ..Caustic::default() };
         }
         let sequence = branch.sequence.dimension(COVERAGE);
         let correction = self.edge_correction(caustics, surface, shading, &gathered, sequence, tally);
-        let probing = tally.probing;
         let mut look = |within: f32, dimension: u64| {
             let other = gather(Some(within));
             let sequence = branch.sequence.dimension(dimension);

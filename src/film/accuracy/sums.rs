@@ -27,7 +27,7 @@ pub(super) struct Sums {
     changes: [f64; 2],
     /// Products of two halves' biases by [`Look`], of caustic, indirect and both; and how many.
     bias: [[f64; 3]; 2],
-    biased: f64,
+    biased: [f64; 2],
     /// Of probes that know what is left at one place: that, and all of the variance of the rest.
     place: [f64; 2],
 }
@@ -45,7 +45,7 @@ impl Sums {
         self.changes[1] += relative(probe.change_before());
         for look in [Look::Wide, Look::Narrow] {
             if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases(look) {
-                self.biased += 0.5;
+                self.biased[look as usize] += 1.0;
                 let bias = &mut self.bias[look as usize];
                 bias[0] += relative(caustic * caustic_later);
                 bias[1] += relative(indirect * indirect_later);
@@ -67,9 +67,9 @@ impl Sums {
         add(&mut sum.changes, &other.changes);
         add(&mut sum.bias[0], &other.bias[0]);
         add(&mut sum.bias[1], &other.bias[1]);
+        add(&mut sum.biased, &other.biased);
         add(&mut sum.place, &other.place);
         sum.count += times * other.count;
-        sum.biased += times * other.biased;
         sum
     }
 
@@ -99,7 +99,7 @@ impl Sums {
 
     /// The squared bias: 0 caustic, 1 indirect, 2 both. Below 0 by chance where it is small.
     pub fn bias(&self, look: Look, which: usize) -> f64 {
-        self.bias[look as usize][which] / self.biased.max(1.0)
+        self.bias[look as usize][which] / self.biased[look as usize].max(1.0)
     }
 
     /// The squared noise over what it would be of independent passes.
