@@ -21,6 +21,7 @@
 mod class;
 mod done;
 mod independent;
+mod jackknife;
 mod law;
 mod sums;
 
@@ -29,6 +30,7 @@ use crate::math::DVec3;
 use crate::trace::{Measured, Probe};
 use class::Classes;
 pub(super) use done::done;
+use jackknife::jackknife;
 use serde::Serialize;
 
 /// The relative RMS error of a picture, 1 for 100 %.
@@ -118,16 +120,13 @@ impl Accuracy {
             .map(|group| 0.5 * libm::log(classes.squared(Some(group)).max(1e-6 * squared) / squared))
             .filter(|log| log.is_finite())
             .collect();
-        let n = (logs.len() as f64).max(1.0);
-        let mean = logs.iter().sum::<f64>() / n;
-        let jackknife = STUDENT
-            * (logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() * (n - 1.0) / n).sqrt();
+        let groups = STUDENT * jackknife(&logs);
         let model = match passes {
             2..4 => 0.3,
             4..8 => 0.2,
             _ => 0.12,
         };
-        let half = (chance * chance + jackknife * jackknife + model * model).sqrt();
+        let half = (chance * chance + groups * groups + model * model).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
         Some(accuracy)
     }

@@ -1,6 +1,7 @@
 //! Pixels by how many passes they have: those that came to rest have fewer.
 
 use super::independent::{Independent, relative};
+use super::jackknife::jackknife;
 use super::sums::{Row, Sums};
 use super::{Accuracy, Part};
 use crate::film::brightness::Brightness;
@@ -86,11 +87,7 @@ impl Classes {
             probed.bias(Look::Narrow, which) - probed.bias(Look::Wide, which)
         };
         let each: Vec<f64> = self.groups().map(|group| more(Some(group))).collect();
-        let n = each.len() as f64;
-        let mean = each.iter().sum::<f64>() / n;
-        let squares: f64 = each.iter().map(|one| (one - mean) * (one - mean)).sum();
-        let chance = (squares * (n - 1.0) / n).sqrt();
-        if more(None) > 2.0 * chance { Look::Narrow } else { Look::Wide }
+        if more(None) > 2.0 * jackknife(&each) { Look::Narrow } else { Look::Wide }
     }
 
     /// What a class adds to the squared noise of the picture.
