@@ -29,9 +29,10 @@ fn main() {
         "{:34}{:>14}{:>16}{:>8}{:>16}{:>8}{:>12}",
         "", "photons", "plain rays", "ratio", "camera paths", "ratio", "rays/photon"
     );
-    for scene in ["caustic-sphere.ron", "cornell-glass.ron"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/yardstick").join(scene);
-        let loaded = load(&path, &[]).expect("the yardstick's scenes are valid");
+    for scene in ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "terrarium.ron"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(scene);
+        let smaller = ["image.width=256".to_owned(), "image.height=256".to_owned()];
+        let loaded = load(&path, &smaller).expect("the yardstick's scenes are valid");
         let scene_text = &loaded.scene;
         let plan = Plan::new(scene_text, &Request::default()).expect("nothing is overridden");
         let world = build(scene_text, &plan).expect("the yardstick's scenes can be built").world;

@@ -59,7 +59,7 @@ impl Meshes {
             parts: read.parts,
         };
         let mesh = LoadedMesh {
-            geometry: add(Mesh { surface, tree, name: path.to_owned() }),
+            geometry: add(Mesh::new(surface, tree, path.to_owned())),
             center: read.center,
             parts: read.part_names,
         };

@@ -68,6 +68,20 @@ impl<'a> Shading<'a> {
         }
     }
 
+    /// For a photon, which needs to know how it goes on, and the colours of what shades only where that
+    /// `scatters` it: they are left at 0 elsewhere, and the normal as it is without relief.
+    pub fn of_photon(world: &'a World, surface: &Surface, wo: DVec3, scatters: bool) -> Shading<'a> {
+        let material = &world.materials[surface.material.0 as usize];
+        let cone = Cone { width: 0.0, spread: 0.0 };
+        if scatters || material.specular_somewhere() || !material.textured {
+            return Shading::new(world, surface, wo, &cone);
+        }
+        let turn = if wo.dot(surface.ng) >= 0.0 { 1.0 } else { -1.0 };
+        let none = Vec3::ZERO;
+        let (ng, ns) = (surface.ng * turn, surface.ns * turn);
+        Shading { material, wo, ng, ns, kd: none, ks: none, km: none, kt: none, emission: none }
+    }
+
     /// Radiance that the surface itself sends towards `wo`.
     pub fn emitted(&self) -> Vec3 {
         self.emission

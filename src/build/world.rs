@@ -58,7 +58,23 @@ pub enum Geometry {
 pub struct Mesh {
     pub surface: TriangleMesh,
     pub tree: TriangleBvh,
+    /// Of the ball around the middle of its bounds that holds all vertices.
+    pub radius: f64,
     pub name: String,
+}
+
+impl Mesh {
+    pub fn new(surface: TriangleMesh, tree: TriangleBvh, name: String) -> Mesh {
+        let middle = middle(&tree);
+        let squares = surface.positions.iter().map(|p| p.as_dvec3().distance_squared(middle));
+        let radius = squares.fold(0.0, f64::max).sqrt();
+        Mesh { surface, tree, radius, name }
+    }
+}
+
+fn middle(tree: &TriangleBvh) -> DVec3 {
+    let bounds = tree.bounds();
+    0.5 * (bounds.min.as_dvec3() + bounds.max.as_dvec3())
 }
 
 /// One placed geometry.
@@ -94,6 +110,14 @@ impl Geometry {
                 let b = mesh.tree.bounds();
                 (b.min.as_dvec3(), b.max.as_dvec3())
             }
+        }
+    }
+
+    /// The centre and radius of a ball around it in object space, but for rounding.
+    pub fn ball(&self) -> (DVec3, f64) {
+        match self {
+            Geometry::Shape(shape) => shape.ball(),
+            Geometry::Mesh(mesh) => (middle(&mesh.tree), mesh.radius),
         }
     }
 

@@ -89,6 +89,16 @@ impl Material {
         !self.transmission.is_zero()
     }
 
+    /// Whether light may go on from it without being scattered.
+    pub fn specular_somewhere(&self) -> bool {
+        self.transmits() || !self.reflection.is_zero()
+    }
+
+    /// Whether it sends on light of a lamp or of photons, as far as that is known without its textures.
+    pub fn shades(&self) -> bool {
+        !(self.diffuse.is_zero() && self.specular.is_zero())
+    }
+
     pub fn emits(&self) -> bool {
         !self.emission.is_zero()
     }

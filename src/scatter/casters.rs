@@ -1,9 +1,8 @@
 //! Casters: what makes caustics, as the bounds that photons are aimed at.
 
 use super::bounds::Bound;
-use crate::build::{Geometry, Instance, World};
+use crate::build::{Instance, World};
 use crate::math::{Placement, Vec3};
-use crate::optics::Shape;
 
 /// Bounds that aiming tells apart; more casters than this are merged by nearness.
 const MOST: usize = 32;
@@ -44,12 +43,11 @@ pub(super) fn of_instance(world: &World, instance: &Instance) -> Option<Bound> {
     if aabb.is_empty() {
         return None;
     }
-    let bound = Bound::of_aabb(&aabb);
-    let Geometry::Shape(Shape::Sphere(sphere)) = geometry else { return Some(bound) };
-    // An ellipsoid lies within the ball of its longest half-axis, which this bounds.
+    // The placed ball lies within the ball of its longest half-axis, which this bounds.
     let placement = &instance.placement;
     let stretch = round_scale(placement).map_or(placement.stretch(), |scale| scale * (1.0 + 1e-12));
-    Some(bound.with_ball(placement.point(sphere.center()), sphere.radius() * stretch))
+    let (center, radius) = geometry.ball();
+    Some(Bound::of_aabb(&aabb).with_ball(placement.point(center), radius * stretch))
 }
 
 /// The scale of a placement that leaves spheres round.

@@ -64,6 +64,7 @@ pub struct Emission {
     bounces: u32,
     store: Store,
     sources: Vec<Source>,
+    aim: Aim,
     targets: Vec<Bound>,
     cells: Vec<Cell>,
     found: Vec<pilot::Found>,
@@ -148,6 +149,7 @@ impl Emission {
             bounces: plan.bounces,
             store,
             sources,
+            aim,
             targets,
             cells,
             found: Vec::new(),
@@ -256,7 +258,9 @@ impl Emission {
             let weight = 1.0 / (count * self.cells[cell].share);
             for index in runs[cell].start + (i - starts[cell])..runs[cell].start + (end - starts[cell]) {
                 let sequence = Sequence::new(self.seed, Stage::Photons, cell as u64, index as u32);
-                if let Some(start) = self.start(walk.world, cell, sequence) {
+                if let Some(start) = self.start(walk.world, cell, sequence)
+                    && self.may_arrive(&start)
+                {
                     walk.follow(Start { power: start.power * weight, ..start }, sequence, &mut sink);
                 }
             }
@@ -275,6 +279,12 @@ impl Emission {
         let Cell { source, domain, .. } = &self.cells[cell];
         let u = [sequence.dimension(WHERE[0]).pair(), sequence.dimension(WHERE[1]).pair()];
         self.sources[*source as usize].sample(world, &self.targets, domain, u)
+    }
+
+    /// What passes all mirrors and interfaces by would be traced for nothing.
+    #[inline]
+    fn may_arrive(&self, start: &Start) -> bool {
+        self.aim == Aim::Scene || self.targets.iter().any(|target| target.may_meet(&start.ray))
     }
 
     fn walk<'a>(&'a self, world: &'a World) -> Walk<'a> {

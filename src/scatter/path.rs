@@ -15,7 +15,7 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Colour, Cone, Crossing, Hit, MediaSet, Shading, Surface, World};
+use crate::build::{Colour, Crossing, Hit, MediaSet, Shading, Surface, World};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Health, Rare, Ray, Vec3};
 use crate::optics::Interface;
@@ -153,14 +153,14 @@ impl Walk<'_> {
         sink: &mut Sink,
     ) -> bool {
         let world = self.world;
-        let cone = Cone { width: 0.0, spread: 0.0 };
-        let mut shading = Shading::new(world, surface, -path.ray.dir, &cone);
+        let scatters = self.store == Store::Indirect;
+        let mut shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
         let mut crossing = world.crossing(&path.media, path.ray.dir, surface, &shading, &mut sink.health);
         let unnoticed = crossing.as_ref().is_some_and(|c| c.after.top() == path.media.top());
         if unnoticed && let Some(opaque) = &behind {
             // Nothing is left here, so that what is opaque shows.
             *surface = world.surface(&path.ray, opaque);
-            shading = Shading::new(world, surface, -path.ray.dir, &cone);
+            shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
             crossing = None;
         } else if unnoticed && let Some(crossing) = &crossing {
             // Within an object of higher priority this surface does not exist.
@@ -221,8 +221,10 @@ impl Walk<'_> {
             Store::Direct => path.events == 0,
             Store::Indirect => path.bounces > 0,
         };
+        // Where a texture is black, too: photons around such a place tell what arrives beside it.
         let rest = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt);
-        let receives = rest * shading.kd != Vec3::ZERO || shading.ks != Vec3::ZERO;
+        let receives =
+            shading.material.shades() && (rest != Vec3::ZERO || !shading.material.specular.is_zero());
         if !due || !receives || shading.wo.dot(shading.ng) <= 0.0 {
             return false;
         }

@@ -48,11 +48,14 @@ fn found(emission: &Emission, walk: &Walk, cell: usize, each: u32) -> Found {
     for i in 0..each {
         let sequence = Sequence::new(emission.seed, Stage::Photons, cell as u64 | PILOT, i);
         let Some(start) = emission.start(walk.world, cell, sequence) else { continue };
+        found.flux += start.power.element_sum();
+        if !emission.may_arrive(&start) {
+            continue;
+        }
         sink.photons.clear();
         sink.ledger = Default::default();
         walk.follow(start, sequence, &mut sink);
         let arrived = sink.ledger.arrived.element_sum();
-        found.flux += sink.ledger.emitted.element_sum();
         found.arrived += arrived;
         found.square += arrived * arrived;
     }

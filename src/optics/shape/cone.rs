@@ -173,6 +173,11 @@ impl Surface for Cone {
         (DVec3::new(-r, 0.0, -r), DVec3::new(r, self.height, r))
     }
 
+    fn ball(&self) -> (DVec3, f64) {
+        let half = 0.5 * self.height;
+        (DVec3::Y * half, libm::hypot(half, self.radius.max(self.top_radius)))
+    }
+
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         if !self.caps {
             return self.nearest_on_side(ray, t_min, t_max);

@@ -39,6 +39,10 @@ impl Surface for Disk {
         self.square().bounds()
     }
 
+    fn ball(&self) -> (DVec3, f64) {
+        (DVec3::ZERO, self.radius)
+    }
+
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         let (t, p) = plane_crossing(ray, t_min, t_max)?;
         let r2 = p.x * p.x + p.z * p.z;

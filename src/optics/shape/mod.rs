@@ -72,6 +72,10 @@ pub struct AreaSample {
 /// What every shape can do; `Shape` documents it.
 trait Surface {
     fn bounds(&self) -> (DVec3, DVec3);
+    fn ball(&self) -> (DVec3, f64) {
+        let (min, max) = self.bounds();
+        (0.5 * (min + max), 0.5 * (max - min).length())
+    }
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit>;
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface;
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
@@ -104,6 +108,11 @@ impl Shape {
     /// The least and the greatest corner of a box around the shape.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         each!(self, s => s.bounds())
+    }
+
+    /// The centre and radius of a ball around the shape, but for rounding.
+    pub fn ball(&self) -> (DVec3, f64) {
+        each!(self, s => s.ball())
     }
 
     /// The nearest hit with `t_min` < t < `t_max`, from either side.

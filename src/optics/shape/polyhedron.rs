@@ -203,6 +203,10 @@ impl Surface for Polyhedron {
         (min - slack, max + slack)
     }
 
+    fn ball(&self) -> (DVec3, f64) {
+        (DVec3::ZERO, self.circumradius)
+    }
+
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         self.span(ray)?.nearest(t_min, t_max)
     }

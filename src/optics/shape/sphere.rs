@@ -58,6 +58,10 @@ impl Surface for Sphere {
         (self.center - self.radius, self.center + self.radius)
     }
 
+    fn ball(&self) -> (DVec3, f64) {
+        (self.center, self.radius)
+    }
+
     #[inline]
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         let [enter, exit] = robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?;

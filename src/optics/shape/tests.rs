@@ -45,6 +45,21 @@ fn shapes() -> Vec<(&'static str, Shape, Option<f64>)> {
     list
 }
 
+/// All of the surface lies in the ball; and a part of it, or of the box's faces, near the ball's own.
+#[test]
+fn balls_hold_their_shapes() {
+    for (name, shape, _) in shapes() {
+        let (center, radius) = shape.ball();
+        let distance = |i| {
+            let u = Sequence::new(32, Stage::Test, 1, i).pair();
+            shape.sample_area(u).p.distance(center)
+        };
+        let farthest = (0..20_000).map(distance).fold(0.0, f64::max);
+        assert!(farthest <= radius * (1.0 + 1e-12), "{name}: {farthest} of {radius}");
+        assert!(farthest > 0.93 * radius, "{name}: {farthest} of {radius}");
+    }
+}
+
 fn random_direction(counter: &mut Counter) -> DVec3 {
     sampling::sphere(counter.pair())
 }
