@@ -11,6 +11,7 @@ mod crossing;
 mod examine;
 mod footprint;
 pub mod images;
+mod inside;
 mod lights;
 mod lobes;
 mod materials;

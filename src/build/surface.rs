@@ -23,6 +23,8 @@ pub struct Surface {
     pub local: DVec3,
     pub material: MaterialId,
     pub instance: u32,
+    /// Face of a shape, triangle of a mesh.
+    pub primitive: u32,
     /// Where shadow rays start: `p`, or lifted off the facets of a smooth mesh.
     pub shadow_p: DVec3,
 }
@@ -63,6 +65,7 @@ impl World {
                     local: bare.p,
                     material,
                     instance: hit.instance,
+                    primitive: hit.primitive,
                     shadow_p: p,
                 }
             }
@@ -117,6 +120,7 @@ fn placed(
         local: local.p,
         material,
         instance: hit.instance,
+        primitive: hit.primitive,
         shadow_p: lifted.map_or(p, |q| placement.point(q)),
     }
 }

@@ -164,7 +164,7 @@ impl Walk<'_> {
             crossing = None;
         } else if unnoticed && let Some(crossing) = &crossing {
             // Within an object of higher priority this surface does not exist.
-            path.ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, path.ray.dir);
+            path.ray = world.leaving(surface, crossing.tolerance, path.ray.dir);
             path.media = crossing.after;
             return true;
         }
@@ -314,8 +314,11 @@ impl Walk<'_> {
             crossing.map_or(surface.p_error, |c| c.tolerance)
         };
         // From before an interface that touches something, so that what touches is met.
-        let start = if touches && i == REFRACTED { Ray::reaching } else { Ray::leaving };
-        path.ray = start(surface.p, tolerance, surface.ng, dir);
+        path.ray = if touches && i == REFRACTED {
+            Ray::reaching(surface.p, tolerance, surface.ng, dir)
+        } else {
+            self.world.leaving(surface, tolerance, dir)
+        };
         if i == REFRACTED
             && let Some(crossing) = crossing
         {

@@ -183,7 +183,7 @@ impl Tracer<'_> {
             (Some(crossing), _) => {
                 if crossing.after.top() == branch.media.top() {
                     // Within an object of higher priority this surface does not exist.
-                    let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, branch.ray.dir);
+                    let ray = self.world.leaving(&surface, crossing.tolerance, branch.ray.dir);
                     let cone = branch.cone.after(surface.t);
                     let next = Branch { ray, media: crossing.after, cone, ..*branch };
                     tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
@@ -202,7 +202,7 @@ impl Tracer<'_> {
         self.deposit(sample, branch, radiance, tally);
         if shading.km != Vec3::ZERO && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
-            let ray = Ray::leaving(surface.p, surface.p_error, surface.ng, wi);
+            let ray = self.world.leaving(&surface, surface.p_error, wi);
             let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
             tally.rays.reflection += 1;
             self.push(next, shading.km, MIRROR, Class::Reflection, todo, tally);
@@ -262,7 +262,7 @@ impl Tracer<'_> {
         });
         if interface.reflectance > 0.0 && carried.any(Carriers::REFLECTION) {
             let wi = shading.mirrored(&mut tally.health);
-            let ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, wi);
+            let ray = self.world.leaving(surface, crossing.tolerance, wi);
             tally.rays.reflection += 1;
             let weight = weight * interface.reflectance as f32;
             self.push(
@@ -277,8 +277,11 @@ impl Tracer<'_> {
         if interface.reflectance < 1.0 && carried.any(Carriers::REFRACTION) {
             let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
             // From before the interface, which is no longer there for it, so that what touches is met.
-            let start = if touches { Ray::reaching } else { Ray::leaving };
-            let ray = start(surface.p, crossing.tolerance, surface.ng, wi);
+            let ray = if touches {
+                Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi)
+            } else {
+                self.world.leaving(surface, crossing.tolerance, wi)
+            };
             tally.rays.refraction += 1;
             let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
             let next =

@@ -135,7 +135,7 @@ const INTERSECTION: &[Row] = &[
         "H7",
         "h07_rays_through_edges",
         "a ray through an edge or corner meets no face or two, and inside and outside are exchanged",
-        "ties go to the lowest index; media are a set, not a stack",
+        "ties go to the lowest index; media are a set, not a stack; near an edge a ray that goes on inside starts away from all faces",
     ),
     row(
         "H8",

@@ -216,6 +216,12 @@ impl Surface for Cone {
         rim - r
     }
 
+    fn depth(&self, p: DVec3) -> f64 {
+        let slope = (self.top_radius - self.radius) / self.height;
+        let to_side = (self.radius + slope * p.y - libm::hypot(p.x, p.z)) * (self.height / self.slant());
+        if self.caps { to_side.min(p.y).min(self.height - p.y) } else { 0.0 }
+    }
+
     fn area(&self) -> f64 {
         self.areas().iter().sum()
     }

@@ -121,6 +121,10 @@ impl Surface for Cuboid {
         d[1]
     }
 
+    fn depth(&self, p: DVec3) -> f64 {
+        (p - self.min).min(self.max - p).min_element()
+    }
+
     fn area(&self) -> f64 {
         self.face_areas().iter().sum()
     }

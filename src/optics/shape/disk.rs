@@ -67,6 +67,10 @@ impl Surface for Disk {
         (self.radius - r).min(if self.inner_radius > 0.0 { r - self.inner_radius } else { f64::INFINITY })
     }
 
+    fn depth(&self, _: DVec3) -> f64 {
+        0.0
+    }
+
     fn area(&self) -> f64 {
         PI * (self.radius - self.inner_radius) * (self.radius + self.inner_radius)
     }

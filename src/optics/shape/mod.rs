@@ -83,6 +83,7 @@ trait Surface {
         BareSurface { p, p_error, ng }
     }
     fn clearance(&self, p: DVec3) -> f64;
+    fn depth(&self, p: DVec3) -> f64;
     fn closed(&self) -> bool;
     fn area(&self) -> f64;
     fn sample_area(&self, u: [f64; 2]) -> AreaSample;
@@ -135,6 +136,12 @@ impl Shape {
     /// A lower bound on the distance from a surface point to the end of its face; 0 where nothing is known.
     pub fn clearance(&self, p: DVec3) -> f64 {
         each!(self, s => s.clearance(p))
+    }
+
+    /// The distance from a point of a solid to the nearest of the surfaces that bound it; negative outside. Of a
+    /// shape that bounds none, 0.
+    pub fn depth(&self, p: DVec3) -> f64 {
+        each!(self, s => s.depth(p))
     }
 
     /// Whether the surface bounds a solid.

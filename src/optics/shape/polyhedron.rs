@@ -231,8 +231,19 @@ impl Surface for Polyhedron {
         true
     }
 
-    fn clearance(&self, _: DVec3) -> f64 {
-        0.0
+    fn clearance(&self, p: DVec3) -> f64 {
+        // The smallest distance is that to the face itself.
+        let (mut least, mut second) = (f64::INFINITY, f64::INFINITY);
+        for face in &self.faces {
+            let depth = self.inradius - p.dot(face.normal);
+            (least, second) = (least.min(depth), second.min(depth.max(least)));
+        }
+        second
+    }
+
+    fn depth(&self, p: DVec3) -> f64 {
+        let heights = self.faces.iter().map(|face| p.dot(face.normal));
+        self.inradius - heights.fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn area(&self) -> f64 {

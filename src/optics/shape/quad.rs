@@ -88,6 +88,10 @@ impl Surface for Quad {
         (self.half.x - p.x.abs()).min(self.half.y - p.z.abs())
     }
 
+    fn depth(&self, _: DVec3) -> f64 {
+        0.0
+    }
+
     fn area(&self) -> f64 {
         4.0 * self.half.x * self.half.y
     }

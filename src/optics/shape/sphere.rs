@@ -99,6 +99,10 @@ impl Surface for Sphere {
         f64::INFINITY
     }
 
+    fn depth(&self, p: DVec3) -> f64 {
+        self.radius - p.distance(self.center)
+    }
+
     fn area(&self) -> f64 {
         4.0 * PI * self.radius * self.radius
     }

@@ -60,6 +60,32 @@ fn balls_hold_their_shapes() {
     }
 }
 
+/// Depth is 0 on the surface of a solid, and within it what no ray's way out is shorter than.
+#[test]
+fn depth_is_the_distance_to_the_nearest_face() {
+    for (name, shape, _) in shapes().into_iter().filter(|(_, shape, _)| shape.closed()) {
+        let mut counter = Counter::new(33, Stage::Test, 0);
+        let (middle, radius) = shape.ball();
+        for i in 0..2_000 {
+            let s = shape.sample_area(Sequence::new(33, Stage::Test, 1, i).pair());
+            assert!(shape.depth(s.p).abs() < 1e-12, "{name}: {}", shape.depth(s.p));
+            let p = s.p + (middle - s.p) * counter.value();
+            let depth = shape.depth(p);
+            assert!(depth > -1e-12, "{name}: {depth}");
+            let mut shortest = |steps: u32| {
+                let ways = (0..steps).map(|_| Ray { origin: p, dir: random_direction(&mut counter) });
+                ways.filter_map(|ray| shape.nearest(&ray, 0.0, 4.0 * radius))
+                    .map(|hit| hit.t)
+                    .fold(radius, f64::min)
+            };
+            let out = shortest(400);
+            assert!(depth <= out * (1.0 + 1e-9) + 1e-12, "{name}: {depth} {out}");
+            // Directions 0.2 rad apart or so find all but 2 % of it.
+            assert!(depth > 0.85 * out - 1e-12, "{name}: {depth} {out}");
+        }
+    }
+}
+
 fn random_direction(counter: &mut Counter) -> DVec3 {
     sampling::sphere(counter.pair())
 }
