@@ -1,6 +1,7 @@
 //! The stages in order, each timed: the whole program on one screen.
 
 mod clock;
+mod health;
 mod image;
 mod keeper;
 mod kept;
@@ -20,13 +21,11 @@ mod stop;
 
 use crate::description::Loaded;
 use crate::film::Film;
-use crate::math::{Place, Rare};
 use crate::output;
 pub use crate::output::partial::PartialError;
-use crate::plan::Plan;
 use crate::survey::Survey;
-use crate::trace::Tally;
 use clock::Clock;
+pub use health::{unhealthy, warnings as health_warnings};
 use keeper::Keeper;
 pub use keeper::{Checkpoint, Halt};
 use kept::Form;
@@ -105,11 +104,16 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     clock.lap("trace");
 
     let Prepared { plan, world, mut warnings, files, .. } = ready;
-    let Traced { film, tally, photons, passes, part, halted, checkpoints } = traced;
-    warnings.extend(health_warnings(&tally, &plan));
+    let Traced { film, mut tally, photons, passes, part, halted, checkpoints } = traced;
+    // What is rare is told of the whole, of what a checkpoint had as well.
+    let whole = &part.counts;
+    tally.health = whole.health.clone();
+    (tally.cut.paths, tally.cut.weight) = (whole.cut_paths, whole.cut_weight);
+    warnings.extend(health::warnings(&part.counts.health));
+    warnings.extend(health::cut(&part.counts, plan.max_depth));
     warnings.extend(photons.warnings(plan.max_depth));
     if options.strict {
-        refuse_excesses(&tally)?;
+        health::refuse_excesses(&part.counts.health)?;
     }
     let image = image::assemble(&film, &options.aovs);
     // Passes of a shard are no sample of all.
@@ -135,48 +139,4 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     );
     let part = (options.shards.is_some() || halted).then_some((part, film));
     Ok(Rendered { image, provenance, survey: planned.survey, stats, warnings, files, part, halted })
-}
-
-fn health_warnings(tally: &Tally, plan: &Plan) -> Vec<String> {
-    let health = &tally.health;
-    let mut warnings = Vec::new();
-    for (event, count) in health.excesses() {
-        let places: Vec<String> = health.places.iter().take(3).map(ToString::to_string).collect();
-        let at = if event == Rare::NonFiniteSample {
-            format!(", first at {}{}", places.join("; "), replayed(tally))
-        } else {
-            String::new()
-        };
-        warnings.push(format!(
-            "{}: {count} in {} paths, more than {} is unhealthy{at}",
-            event.name(),
-            health.trials(),
-            event.allowed()
-        ));
-    }
-    let cut = &tally.cut;
-    if cut.paths > 0 {
-        warnings.push(format!(
-            "{} paths were cut after {} specular events in a row (render.max_depth), {:.2e} of all weight",
-            cut.paths,
-            plan.max_depth,
-            cut.weight / health.samples as f64
-        ));
-    }
-    warnings
-}
-
-/// How the first sample that was dropped can be looked at.
-fn replayed(tally: &Tally) -> String {
-    let Some(Place { x, y, pass }) = tally.health.places.first() else { return String::new() };
-    format!("; `terrarium render` with `--pixel {x},{y} --pass {pass}` replays the first")
-}
-
-fn refuse_excesses(tally: &Tally) -> Result<(), RenderError> {
-    let excesses: Vec<String> =
-        tally.health.excesses().map(|(event, count)| format!("{count} {}", event.name())).collect();
-    if excesses.is_empty() {
-        return Ok(());
-    }
-    Err(RenderError::Failed(format!("unhealthy: {} (--strict){}", excesses.join(", "), replayed(tally))))
 }

@@ -154,6 +154,37 @@ fn what_was_dropped_can_be_replayed_by_its_message() {
     assert!(!folder.path().join("b.exr").exists());
 }
 
+/// A sample at a corner on the image's border that is dropped is the last pixel's; one that is finite but more than
+/// can be added up is told as dropped too.
+#[test]
+fn dropped_samples_at_the_border_and_beyond_the_sums_are_told_as_such() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let hot = |antialiasing: &str, x: f64, width: f64| {
+        format!(
+            r#"(camera: (eye: (0, 0, 4), target: (0, 0, 0), fov_deg: 40), image: (width: 16, height: 16), antialiasing: {antialiasing},
+            materials: {{ "hot": (emission: 1e14), "dim": (emission: 1) }},
+            objects: [(shape: box(size: ({width}, 9, 0.001)), material: "hot", transform: [translate(({x}, 0, 0))]),
+                (shape: box(size: (0.15, 9, 0.001)), material: "dim", transform: [translate((1.35, 0, 0))])])"#
+        )
+    };
+    let cases =
+        [("adaptive(threshold: 0.05, depth: 3)", 1.4559, 0.012), ("none", 0.0, 0.3), ("grid(2)", 0.0, 0.3)];
+    for (antialiasing, x, width) in cases {
+        std::fs::write(folder.path().join("hot.ron"), hot(antialiasing, x, width)).expect("written");
+        let done = program(folder.path(), &["render", "hot.ron", "-o", "a.exr", "--passes", "1"]);
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        let options = said.split("with `").nth(1).and_then(|rest| rest.split('`').next());
+        let options = options.unwrap_or_else(|| panic!("{antialiasing}: {said}"));
+        let arguments = [&["render", "hot.ron"], &options.split(' ').collect::<Vec<_>>()[..]].concat();
+        let replayed = program(folder.path(), &arguments);
+        let told = String::from_utf8_lossy(&replayed.stdout).into_owned();
+        assert!(replayed.status.success(), "{antialiasing}: {}", String::from_utf8_lossy(&replayed.stderr));
+        assert!(told.contains("beyond 3.5e13: dropped"), "{antialiasing}, {options}: {told}");
+        let json = program(folder.path(), &[&arguments[..], &["--json"]].concat());
+        assert!(String::from_utf8_lossy(&json.stdout).contains("\"finite\": false"), "{antialiasing}");
+    }
+}
+
 #[test]
 fn the_program_prints_text_or_json_and_refuses_what_makes_no_sense() {
     let folder = tempfile::tempdir().expect("a temporary folder");

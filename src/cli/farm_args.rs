@@ -30,6 +30,9 @@ pub struct MergeArgs {
     /// Make the image of the parts that are there, and restate its error
     #[arg(long)]
     pub allow_missing: bool,
+    /// Fail if rare events were too frequent in the parts together
+    #[arg(long)]
+    pub strict: bool,
     /// Print only warnings and errors
     #[arg(short, long)]
     pub quiet: bool,

@@ -1,6 +1,6 @@
 //! `merge`: partial images in, the image out.
 
-use super::exit::{Failure, UNREADABLE, USAGE};
+use super::exit::{FAILED, Failure, UNREADABLE, USAGE};
 use super::farm_args::MergeArgs;
 use super::progress::{duration, short};
 use super::report::Terminal;
@@ -8,7 +8,9 @@ use super::target::{Staged, same_file, targets_of};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use terrarium::output::atomic;
-use terrarium::render::{MergeError, Merged, PartialError, merge, shards_numbered};
+use terrarium::render::{
+    MergeError, Merged, PartialError, health_warnings, merge, shards_numbered, unhealthy,
+};
 
 pub fn run(args: &MergeArgs, terminal: &Terminal) -> Result<(), Failure> {
     let began = Instant::now();
@@ -21,6 +23,12 @@ pub fn run(args: &MergeArgs, terminal: &Terminal) -> Result<(), Failure> {
         atomic::probe(path).map_err(|error| Failure::writing(&path.display().to_string(), error))?;
     }
     let merged = merge(&parts, args.allow_missing).map_err(failure)?;
+    health_warnings(&merged.health).iter().for_each(|warning| terminal.warning(warning));
+    if args.strict
+        && let Some(what) = unhealthy(&merged.health)
+    {
+        return Err(Failure::new(FAILED, what));
+    }
     let staged: Vec<Staged> = targets
         .iter()
         .map(|target| Ok(target.stage(&merged.image, &merged.provenance, merged.png)?.0))

@@ -26,7 +26,7 @@ pub fn run(args: &RenderArgs, [x, y]: [u32; 2], terminal: &Terminal) -> Result<(
 
 /// All of it, sample by sample.
 fn text(found: &Replay) -> String {
-    let (used, seen): (Vec<_>, Vec<_>) = found.samples.iter().partition(|s| s.weight > 0.0 || !is_finite(s));
+    let (used, seen): (Vec<_>, Vec<_>) = found.samples.iter().partition(|s| s.weight > 0.0 || s.dropped);
     let plural = if used.len() == 1 { "" } else { "s" };
     let mut text = format!(
         "pixel ({}, {}), pass {}: {} of {} sample{plural}\n",
@@ -49,18 +49,15 @@ fn text(found: &Replay) -> String {
     text
 }
 
-fn is_finite(sample: &SampleRecord) -> bool {
-    sample.radiance.iter().all(|c| c.is_finite())
-}
-
 // Writing to a string cannot fail.
 fn describe(text: &mut String, sample: &SampleRecord) {
     let [x, y] = sample.film;
     let sum = colour(sample.radiance);
-    let fate = if is_finite(sample) {
-        format!("weight {:.4}", sample.weight)
-    } else {
-        "not finite: dropped".to_owned()
+    let finite = sample.radiance.iter().all(|c| c.is_finite());
+    let fate = match (sample.dropped, finite) {
+        (false, _) => format!("weight {:.4}", sample.weight),
+        (true, true) => "beyond 3.5e13: dropped".to_owned(),
+        (true, false) => "not finite: dropped".to_owned(),
     };
     let _ = writeln!(text, "sample at ({x:.4}, {y:.4}): {sum}, {fate}");
     for (i, vertex) in sample.vertices.iter().enumerate() {

@@ -5,8 +5,8 @@
 //!
 //! *Noise.* Photons of different passes are independent: the squared error of their mean over n passes is
 //! V(n) = s²/n, s² the variance from pass to pass. Samples in a pixel are well distributed over the passes and
-//! better than that: V(n) = s²·n^−p. For p there is how much the mean changed when passes were doubled: the mean
-//! of the first half of them and the mean of all differ by D with E[D²] = V(n/2) − V(n), whatever the passes
+//! better than that, by laws ([`law`]) that are fitted to how much the mean changed when passes were doubled: the
+//! mean of the first half of them and the mean of all differ by D with E[D²] = V(n/2) − V(n), whatever the passes
 //! have in common, so long as each part of them is as good as any other of its size. Passes beyond a power of
 //! two begin a part of their own, independent of the others until it is full.
 //!
@@ -69,6 +69,9 @@ pub struct Part {
 /// 0.01/0.18²: see the module's text.
 const FLOOR: f64 = 0.31;
 
+/// The truth may lie as far from the middle of the laws as this times half of what they differ.
+const BESIDE: f64 = 1.2;
+
 /// Student's t for 95 % and one less than the groups that probes are divided into.
 const STUDENT: f64 = 2.131;
 
@@ -122,11 +125,13 @@ impl Accuracy {
             .collect();
         let groups = STUDENT * jackknife(&logs);
         let model = match passes {
-            2..4 => 0.3,
-            4..8 => 0.2,
+            2..8 => 0.45,
+            8..16 => 0.3,
             _ => 0.12,
         };
-        let half = (chance * chance + groups * groups + model * model).sqrt();
+        // What lies beside all laws that noise may follow.
+        let doubt = BESIDE * classes.doubt();
+        let half = (chance * chance + groups * groups + model * model + doubt * doubt).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
         Some(accuracy)
     }

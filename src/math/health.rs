@@ -2,12 +2,13 @@
 //!
 //! Counters travel with the work that they describe and are summed; nothing is global.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// An event that should be rare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rare {
-    /// A sample with NaN or infinity in it: dropped, counted and located.
+    /// A sample with NaN or infinity in it, or more than can be added up: dropped, counted and located.
     NonFiniteSample,
     /// More overlapping transmissive objects at one point than a path keeps track of.
     MediaOverflow,
@@ -40,7 +41,7 @@ impl Rare {
 }
 
 /// Where a non-finite sample was dropped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
     pub x: u32,
     pub y: u32,
@@ -54,7 +55,7 @@ impl fmt::Display for Place {
 }
 
 /// Counts of rare events, with the number of trials they are a share of.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Health {
     counts: [u64; Rare::ALL.len()],
     /// Camera samples, and photons that were sent out: together what every event is a share of.
@@ -78,7 +79,7 @@ impl Health {
 
     pub fn non_finite(&mut self, place: Place) {
         self.count(Rare::NonFiniteSample);
-        if self.places.len() < PLACES {
+        if self.places.len() < PLACES && !self.places.contains(&place) {
             self.places.push(place);
         }
     }
@@ -93,8 +94,11 @@ impl Health {
         }
         self.samples += other.samples;
         self.photons += other.photons;
-        let room = PLACES - self.places.len().min(PLACES);
-        self.places.extend(other.places.iter().take(room));
+        for place in &other.places {
+            if self.places.len() < PLACES && !self.places.contains(place) {
+                self.places.push(*place);
+            }
+        }
     }
 
     /// Paths from the eye and from lights: what events are a share of.

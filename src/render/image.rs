@@ -5,6 +5,7 @@ use super::kept::Counts;
 use crate::build::World;
 use crate::description::Loaded;
 use crate::film::{Accuracy, Film, Window};
+use crate::math::Rare;
 use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance, Within};
 use crate::plan::Plan;
 use crate::survey::Survey;
@@ -88,7 +89,7 @@ pub(super) fn found(
     // Whether, not how many: a corner that tiles share is counted in each of them, and the size of
     // tiles must not show in the file.
     stats.insert("pathsCut".to_owned(), (counts.cut_paths > 0).into());
-    stats.insert("samplesDropped".to_owned(), (counts.dropped > 0).into());
+    stats.insert("samplesDropped".to_owned(), (counts.health.of(Rare::NonFiniteSample) > 0).into());
 }
 
 /// Leaves five digits of every number: more are not known of an error, and the last ones depend on where

@@ -120,7 +120,7 @@ impl<'a> Keeper<'a> {
             )));
         }
         let film = kept.film().map_err(|error| failed(error.to_string()))?;
-        self.before = kept.part.counts;
+        self.before = kept.part.counts.clone();
         progress.note(&format!("going on from {name}, {} passes are done", kept.part.done));
         Ok(Some(Resumed { film, begin: kept.part.begin, done: kept.part.done, part: kept.part }))
     }
@@ -142,7 +142,7 @@ impl<'a> Keeper<'a> {
             begin,
             done,
             finished: stop.is_none(),
-            counts: self.before.plus(counts),
+            counts: self.before.clone().plus(counts),
             stop: stop.and_then(Stop::state),
             words: 0,
             checksum: 0,

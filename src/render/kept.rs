@@ -4,6 +4,7 @@ use super::share::{By, Shards};
 use super::stop::StopState;
 use super::{Aov, Options, RenderError};
 use crate::film::{Film, Window};
+use crate::math::Health;
 use crate::output::partial::{self, PartialError, checksum};
 use crate::output::{Image, Provenance, atomic};
 use crate::plan::Plan;
@@ -56,11 +57,10 @@ pub struct Part {
 }
 
 /// What a tally leaves in the provenance.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Counts {
-    pub samples: u64,
-    pub dropped: u64,
+    pub health: Health,
     pub cut_paths: u64,
     pub cut_weight: f64,
 }
@@ -173,18 +173,13 @@ impl Form {
 
 impl Counts {
     pub(super) fn of(tally: &Tally) -> Counts {
-        Counts {
-            samples: tally.health.samples,
-            dropped: tally.health.of(crate::math::Rare::NonFiniteSample),
-            cut_paths: tally.cut.paths,
-            cut_weight: tally.cut.weight,
-        }
+        Counts { health: tally.health.clone(), cut_paths: tally.cut.paths, cut_weight: tally.cut.weight }
     }
 
-    pub(super) fn plus(self, other: Counts) -> Counts {
+    pub(super) fn plus(mut self, other: Counts) -> Counts {
+        self.health.add(&other.health);
         Counts {
-            samples: self.samples + other.samples,
-            dropped: self.dropped + other.dropped,
+            health: self.health,
             cut_paths: self.cut_paths + other.cut_paths,
             cut_weight: self.cut_weight + other.cut_weight,
         }

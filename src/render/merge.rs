@@ -3,6 +3,7 @@
 use super::kept::{self, Counts, Kept};
 use super::{By, image};
 use crate::film::{Accuracy, Film};
+use crate::math::Health;
 use crate::output::partial::PartialError;
 use crate::output::{Bits, Image, PngSettings, Provenance};
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ pub struct Merged {
     pub provenance: Provenance,
     pub png: PngSettings,
     pub accuracy: Option<Accuracy>,
+    /// Of all parts.
+    pub health: Health,
     /// Shards that are not there.
     pub missing: Vec<u32>,
     pub of: u32,
@@ -78,7 +81,7 @@ impl Sum {
     fn of(file: &Path, kept: Kept) -> Result<Sum, MergeError> {
         let film = kept.film().map_err(|error| unreadable(file, error))?;
         let from = kept.part.shards.iter().map(|shard| (*shard, file.to_path_buf())).collect();
-        let counts = kept.part.counts;
+        let counts = kept.part.counts.clone();
         let Kept { provenance, part, .. } = kept;
         Ok(Sum { provenance, part, counts, film, from, first: file.to_path_buf() })
     }
@@ -102,7 +105,7 @@ impl Sum {
             }
             self.from.push((shard, file.to_path_buf()));
         }
-        self.counts = self.counts.plus(kept.part.counts);
+        self.counts = std::mem::take(&mut self.counts).plus(kept.part.counts.clone());
         // What is kept of the first pass alone comes from the part that has it.
         let earlier = kept.part.shards.first() < self.part.shards.first();
         kept.join(&mut self.film, earlier).map_err(|error| unreadable(file, error))?;
@@ -140,6 +143,7 @@ impl Sum {
             png: PngSettings { exposure_ev: form.exposure_ev, bits },
             provenance: self.provenance,
             accuracy,
+            health: self.counts.health,
             missing,
             of: form.of,
             passes,

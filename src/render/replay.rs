@@ -20,7 +20,7 @@ pub struct Replay {
     pub pass: u32,
     /// As the image of this pass alone has it.
     pub value: [f32; 3],
-    /// Whether every sample is finite. One that is not was dropped.
+    /// Whether every sample is finite and can be added up. One that is not was dropped.
     pub finite: bool,
     pub samples: Vec<SampleRecord>,
 }
@@ -49,7 +49,7 @@ pub fn replay(loaded: &Loaded, options: &Options, place: Place) -> Result<Replay
         let (ready, maps) = Prepared::new(loaded, &options, &Silent, &mut Clock::start())?;
         let tracer = Tracer { wants: Wants::default(), ..ready.tracer(&maps) };
         let (value, samples) = trace::replay(&tracer, place);
-        let finite = samples.iter().flat_map(|sample| sample.radiance).all(f32::is_finite);
+        let finite = !samples.iter().any(|sample| sample.dropped);
         Ok(Replay { x, y, pass, value: value.as_vec3().to_array(), finite, samples })
     })
 }

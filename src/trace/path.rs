@@ -132,7 +132,7 @@ impl Tracer<'_> {
             match scratch.branches.pop() {
                 Some(next) => branch = next,
                 None => {
-                    tally.note(|recorder| recorder.end(scratch.sample.radiance));
+                    tally.note(|recorder| recorder.end(&scratch.sample));
                     return &scratch.sample;
                 }
             }

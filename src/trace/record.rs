@@ -3,9 +3,9 @@
 //! A recorder travels with the tally where one is asked for and reads what the path computes; it changes
 //! no value. Without one, each place that could be recorded costs a branch.
 
-use super::Tally;
 use super::caustic::Caustic;
 use super::path::{BOUNCE, Branch, MIRROR, REFLECTED, REFRACTED};
+use super::{Sample, Tally};
 use crate::build::{Crossing, Surface, World};
 use crate::math::{DVec2, Vec3};
 use crate::optics::Interface;
@@ -132,6 +132,8 @@ pub struct SampleRecord {
     pub vertices: Vec<Vertex>,
     /// The sum of what they add.
     pub radiance: [f32; 3],
+    /// Whether it is not finite, or more than can be added up, so that it does not count.
+    pub dropped: bool,
 }
 
 /// Takes down what is traced.
@@ -173,9 +175,10 @@ impl Recorder {
     }
 
     #[cold]
-    pub(super) fn end(&mut self, radiance: Vec3) {
+    pub(super) fn end(&mut self, found: &Sample) {
         if let Some(sample) = self.samples.last_mut() {
-            sample.radiance = radiance.to_array();
+            sample.radiance = found.radiance.to_array();
+            sample.dropped = !found.is_finite();
         }
     }
 

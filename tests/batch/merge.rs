@@ -202,3 +202,25 @@ fn shards_that_could_not_be_put_together_are_refused() {
         assert!(said.contains(reason), "{words:?}: {said}");
     }
 }
+
+/// What is rare is told of all parts together, and `--strict` refuses it; as it is after a checkpoint.
+#[test]
+fn what_is_unhealthy_in_the_parts_is_unhealthy_in_the_whole() {
+    let lab = Lab::new(
+        r#"(camera: (eye: (0, 0, 5), target: (0, 0, 0)), image: (width: 4, height: 4), photons: off,
+        materials: { "white": (diffuse: 0.8) }, lights: { "sun": point(position: (0, 0, 1.5), intensity: 3e38) },
+        objects: [(shape: sphere(radius: 1), material: "white")])"#,
+    );
+    let whole = lab.render(&["-o", "whole.exr", "--passes", "4"]);
+    let told = |said: &str| {
+        let line = said.lines().find(|line| line.contains("non-finite samples")).map(str::to_owned);
+        line.unwrap_or_else(|| panic!("{said}"))
+    };
+    lab.render(&["--shard", "0/2", "-o", "a.exr", "--passes", "4"]);
+    lab.render(&["--shard", "1/2", "-o", "b.exr", "--passes", "4"]);
+    let merged = lab.done(&["merge", "b.exr", "a.exr", "-o", "merged.exr"]);
+    let counted = |line: &str| line.split(", first").next().map(str::to_owned);
+    assert_eq!(counted(&told(&merged)), counted(&told(&whole)));
+    let refused = lab.fails(1, &["merge", "a.exr", "b.exr", "-o", "strict.exr", "--strict"]);
+    assert!(refused.contains("unhealthy") && !lab.path("strict.exr").exists(), "{refused}");
+}

@@ -11,6 +11,7 @@ use terrarium::math::random::{Counter, Stage};
 use terrarium::math::{DVec3, Frame, Ray, Vec3};
 use terrarium::optics::texture::perturbed_normal_from_map;
 use terrarium::optics::{LocalSurface, Shape, Sphere};
+use terrarium::render::Aov;
 
 fn is_usable(at: &LocalSurface) -> bool {
     let frame = Frame::with_tangent(at.ns, at.dpdu);
@@ -216,13 +217,16 @@ fn strong_maps(row: &mut Record, folder: &Path) {
     {
         for layers in ["diffuse: 0.7", "reflection: 0.9", "transmission: 1", "specular: 0.9, shininess: 1000"]
         {
-            let picture = shelf(&format!("{layers}, {relief}"), image, folder).render();
+            let shot = shelf(&format!("{layers}, {relief}"), image, folder);
+            let picture = shot.passes(16).aovs(&[Aov::ObjectId]).render();
             unsound += u64::from(!picture.is_sound());
             dropped += picture.rendered.stats.rare_events[0].count;
             if layers == "diffuse: 0.7" {
                 // The ambient term alone gives 0.007.
-                black += picture.grey().iter().filter(|&&x| x != 0.0 && x <= 0.006).count() as u64;
-                pixels += picture.grey().len() as u64;
+                let ids = picture.channel("object_id", "id");
+                let seen = || picture.grey().into_iter().zip(ids).filter(|(_, id)| **id != 0.0);
+                black += seen().filter(|(x, _)| *x < 0.008).count() as u64;
+                pixels += seen().count() as u64;
             }
         }
     }

@@ -102,6 +102,12 @@ impl Classes {
         class.sums(without).gain(class.part, passes)
     }
 
+    /// Of the class with the most probes.
+    pub fn doubt(&self) -> f64 {
+        let class = &self.classes[&self.main];
+        if self.independent { 0.0 } else { class.sums(None).doubt(class.part, self.main) }
+    }
+
     /// All probes.
     fn probed(&self, without: Option<usize>) -> Sums {
         self.classes.values().fold(Sums::default(), |sum, class| sum.with(&class.sums(without), 1.0))

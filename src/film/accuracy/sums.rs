@@ -1,18 +1,10 @@
 //! What probes tell of the noise and the bias, and of which effects bring them.
 
-use super::law::Law;
+use super::law::Fits;
 use super::weight;
 use crate::film::brightness::Brightness;
 use crate::math::DVec3;
 use crate::trace::{Kind, Look, Probe};
-
-/// Rates that are believed of samples that are well distributed: from a little worse than independent ones to
-/// those of smooth things in one dimension.
-const RATES: [f64; 2] = [0.8, 3.0];
-
-/// What is assumed while there are too few passes to tell: between independent samples and the 1.3 to 1.5 that are
-/// usual for edges and soft shadows.
-const EARLY_RATE: f64 = 1.2;
 
 /// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
 const PHOTON_RATE: f64 = 2.0 / 3.0;
@@ -73,28 +65,26 @@ impl Sums {
         sum
     }
 
-    /// The squared noise of the mean of all passes, and the rate at which it will fall.
-    fn noise(&self, kind: Kind, part: u32, passes: u32) -> [f64; 2] {
+    /// The noise of a kind of light in the mean of all passes.
+    fn noise(&self, kind: Kind, part: u32, passes: u32) -> Noise {
         let s2 = self.variance[kind as usize] / self.count.max(1.0);
         if kind != Kind::Rest {
-            return [s2 / f64::from(passes), PHOTON_RATE];
+            return Noise { squared: s2 / f64::from(passes), rate: PHOTON_RATE, doubt: 0.0 };
         }
-        let change = (self.changes[0] + self.changes[1]) / self.count.max(1.0);
         if s2 <= 0.0 {
-            return [0.0, EARLY_RATE];
+            return Noise { squared: 0.0, rate: 1.0, doubt: 0.0 };
         }
-        // Before that two rates could make the same change.
-        if part < 4 {
-            return [s2 * Law(EARLY_RATE).of(part.max(1), passes), EARLY_RATE];
-        }
-        // The change falls as the rate rises.
-        let [mut low, mut high] = RATES;
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if s2 * Law(middle).change(part, passes) > change { low = middle } else { high = middle }
-        }
-        let law = Law(0.5 * (low + high));
-        [s2 * law.of(part, passes), law.0]
+        let changes = self.changes.map(|change| change / (s2 * self.count.max(1.0)));
+        let fits = Fits::of(changes, part, passes);
+        Noise { squared: s2 * fits.middle(), rate: fits.rate, doubt: fits.doubt() }
+    }
+
+    /// By what factor the noise may be off, as far as laws that fit what was seen differ: its logarithm.
+    pub fn doubt(&self, part: u32, passes: u32) -> f64 {
+        let of = |kind| self.noise(kind, part, passes);
+        let [rest, caustic, indirect] = [of(Kind::Rest), of(Kind::Caustic), of(Kind::Indirect)];
+        let all = rest.squared + caustic.squared + indirect.squared;
+        if all > 0.0 { rest.doubt * rest.squared / all } else { 0.0 }
     }
 
     /// The squared bias: 0 caustic, 1 indirect, 2 both. Below 0 by chance where it is small.
@@ -105,7 +95,7 @@ impl Sums {
     /// The squared noise over what it would be of independent passes.
     pub fn gain(&self, part: u32, passes: u32) -> f64 {
         let independent = self.variance.iter().sum::<f64>() / (self.count.max(1.0) * f64::from(passes));
-        let noise: f64 = Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes)[0]).sum();
+        let noise: f64 = Kind::ALL.into_iter().map(|kind| self.noise(kind, part, passes).squared).sum();
         if independent > 0.0 { noise / independent } else { 1.0 }
     }
 
@@ -114,16 +104,26 @@ impl Sums {
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
         let [place, all] = self.place;
         let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
-        let [rest, rate] = self.noise(Kind::Rest, part, passes);
-        let [caustic, caustic_rate] = self.noise(Kind::Caustic, part, passes);
-        let [indirect, indirect_rate] = self.noise(Kind::Indirect, part, passes);
+        let row = |effect, kind, share: f64| {
+            let noise = self.noise(kind, part, passes);
+            Row { effect, noise: noise.squared * share, rate: noise.rate }
+        };
         [
-            Row { effect: "edges", noise: rest * edges, rate },
-            Row { effect: "direct", noise: rest * (1.0 - edges), rate },
-            Row { effect: "caustics", noise: caustic, rate: caustic_rate },
-            Row { effect: "indirect", noise: indirect, rate: indirect_rate },
+            row("edges", Kind::Rest, edges),
+            row("direct", Kind::Rest, 1.0 - edges),
+            row("caustics", Kind::Caustic, 1.0),
+            row("indirect", Kind::Indirect, 1.0),
         ]
     }
+}
+
+/// The noise of one kind of light.
+struct Noise {
+    squared: f64,
+    /// At which it will fall.
+    rate: f64,
+    /// The logarithm of the factor by which its root may be off.
+    doubt: f64,
 }
 
 /// What one effect adds to the squared noise, and the rate at which that falls.

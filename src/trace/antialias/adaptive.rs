@@ -13,6 +13,7 @@
 use super::Average;
 use crate::math::random::{Sequence, Stage};
 use crate::math::{DVec2, Place, Vec3};
+use crate::optics::Camera;
 use crate::trace::Tile;
 use crate::trace::{Sample, Scratch, Tally, Tracer};
 use std::collections::HashMap;
@@ -190,7 +191,10 @@ impl Lattice<'_> {
         let sequence = Sequence::new(self.tracer.plan.seed, Stage::Film, item, self.pass);
         let sample = self.tracer.sample(film, sequence, self.scratch, self.tally);
         if !sample.is_finite() {
-            let place = Place { x: x / self.steps, y: y / self.steps, pass: self.pass };
+            // A point on the right or lower border of the image is the last pixel's.
+            let Camera { width, height, .. } = self.tracer.world.camera;
+            let of = |at: u32, size: u32| (at / self.steps).min(size - 1);
+            let place = Place { x: of(x, width), y: of(y, height), pass: self.pass };
             self.tally.health.non_finite(place);
         }
         self.radiances.push(if sample.is_finite() { sample.radiance } else { Vec3::NAN });
