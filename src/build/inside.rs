@@ -20,10 +20,10 @@ impl World {
     pub fn leaving(&self, surface: &Surface, tolerance: f64, dir: DVec3) -> Ray {
         let ray = Ray::leaving(surface.p, tolerance, surface.ng, dir);
         let inwards = dir.dot(surface.ng) < 0.0 && self.instances[surface.instance as usize].rank != 0;
-        if inwards { self.from_within(surface, tolerance, ray) } else { ray }
+        if inwards { self.start_within(surface, tolerance, ray) } else { ray }
     }
 
-    fn from_within(&self, surface: &Surface, tolerance: f64, ray: Ray) -> Ray {
+    fn start_within(&self, surface: &Surface, tolerance: f64, ray: Ray) -> Ray {
         let placement = &self.instances[surface.instance as usize].placement;
         let by = AWAY * tolerance / placement.least_stretch();
         match self.geometry(surface.instance) {

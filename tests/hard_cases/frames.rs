@@ -223,7 +223,7 @@ fn strong_maps(row: &mut Record, folder: &Path) {
             dropped += picture.rendered.stats.rare_events[0].count;
             if layers == "diffuse: 0.7" {
                 // The ambient term alone gives 0.007.
-                let ids = picture.channel("object_id", "id");
+                let ids = picture.channel("object_id", "Y");
                 let seen = || picture.grey().into_iter().zip(ids).filter(|(_, id)| **id != 0.0);
                 black += seen().filter(|(x, _)| *x < 0.008).count() as u64;
                 pixels += seen().count() as u64;

@@ -98,7 +98,7 @@ fn glass(row: &mut Record) {
         mean,
         sized(5e-3, 3e-3),
     );
-    row.at_most("the worst pixel off 1", pixel, sized(0.8, 0.4));
+    row.at_most("the worst pixel off 1", pixel, sized(0.4, 0.1));
     row.at_most("the share of light cut at the depth limit", cut, 1e-4);
 }
 

@@ -160,7 +160,7 @@ fn h03_quadrics_and_rims() {
         let each = sized(4_000, 1_000_000);
         let (odd, lines) = (AtomicU64::new(0), AtomicU64::new(0));
         rayon::scope(|scope| {
-            for size in [1e-4, 1.0, 1e4] {
+            for size in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
                 for shape in solids(size) {
                     let (odd, lines) = (&odd, &lines);
                     scope.spawn(move |_| {

@@ -158,8 +158,23 @@ fn h10_degenerate_triangles() {
         let n = broken.vertices.len();
         for i in 0..1000 {
             let (a, b) = (i % n, (i * 7 + 1) % n);
-            broken.faces.push(if i % 2 == 0 { vec![a, a, b] } else { vec![a, b, b] });
+            // The same corner twice; two corners in one place; three in a row.
+            let at = broken.vertices[a];
+            let next = broken.vertices.len();
+            match i % 4 {
+                0 => broken.faces.push(vec![a, a, b]),
+                1 => broken.faces.push(vec![a, b, b]),
+                2 => {
+                    broken.vertices.push(at);
+                    broken.faces.push(vec![a, next, b]);
+                }
+                _ => {
+                    broken.vertices.extend([0.25, 0.5].map(|step| at - DVec3::X * (at.x * step)));
+                    broken.faces.push(vec![a, next, next + 1]);
+                }
+            }
         }
+        broken.normals.resize(broken.vertices.len(), DVec3::Y);
         broken.write(&dir.path().join("broken.obj"));
         let view = |name: &str| {
             shot(format!(

@@ -201,7 +201,7 @@ fn h32_edges_and_thin_walls() {
         for (what, object) in surfaces::plates(dir.path()) {
             let [edges, corners, _] = surfaces::evenness(dir.path(), &object, photons);
             row.is(&format!("{what} in even light: its edges over its middle"), edges, 1.0, 0.05);
-            row.is(&format!("{what}: its corners"), corners, 1.0, 0.08);
+            row.is(&format!("{what}: its corners"), corners, 1.0, 0.05);
         }
         let dark = surfaces::dark_side(r#"(shape: box(size: (1e-6, 6, 6)), material: "white")"#);
         row.is("brightest pixel behind a lit wall 1e-6 m thick", dark, 0.0, 0.0);
