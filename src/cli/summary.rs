@@ -121,7 +121,9 @@ fn accuracy(stats: &Stats, part: bool) -> Vec<String> {
     )];
     let parts: Vec<String> =
         a.by_effect.iter().map(|part| format!("{} {:.0} %", part.effect, 100.0 * part.share)).collect();
-    lines.push(format!("  where: {} of the squared error", parts.join(", ")));
+    if !parts.is_empty() {
+        lines.push(format!("  where: {} of the squared error", parts.join(", ")));
+    }
     lines.extend(stats.next.iter().map(price_of_half));
     if !stats.not_seen.is_empty() {
         lines.push(format!("  not in it: {}", stats.not_seen.join("; ")));

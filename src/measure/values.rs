@@ -19,7 +19,7 @@ pub struct Values {
     pub same: bool,
     /// Share of pixels with a value that is not the same, 0 to 1.
     pub differing: f64,
-    /// mean((I−R)²) over pixels and channels.
+    /// mean((I−R)²) over pixels and channels, of values that are finite in both.
     pub mse: f64,
     /// √ mse.
     pub rmse: f64,
@@ -28,7 +28,7 @@ pub struct Values {
     /// Where that is; none where no finite values differ.
     pub worst: Option<Place>,
     pub non_finite: NonFinite,
-    /// Means over finite pixels, by channel.
+    /// Means by channel, of values that are finite in both.
     pub mean_image: Vec<f64>,
     pub mean_reference: Vec<f64>,
 }
@@ -58,7 +58,6 @@ pub struct NonFinite {
 /// A chunk's share of the sums.
 #[derive(Clone, Debug, Default)]
 struct Part {
-    finite: usize,
     differing: usize,
     square: f64,
     worst: Option<(f64, usize)>,
@@ -66,7 +65,16 @@ struct Part {
     reference: usize,
     unmatched: usize,
     first: Option<usize>,
-    sums: Vec<[f64; 2]>,
+    /// By channel.
+    sums: Vec<Sums>,
+}
+
+/// Of a channel's values that are finite in both images.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    finite: usize,
+    image: f64,
+    reference: f64,
 }
 
 /// Compares two layers of one size and number of channels; none where they have not.
@@ -81,14 +89,14 @@ pub fn values(image: &FileLayer, reference: &FileLayer, width: usize) -> Option<
         .map(|chunk| part(&pairs, chunk * CHUNK..((chunk + 1) * CHUNK).min(pixels)))
         .collect();
     let whole = parts.into_iter().reduce(Part::plus)?;
-    let mse = whole.square / (whole.finite * pairs.len()) as f64;
+    let mse = whole.square / whole.sums.iter().map(|sums| sums.finite).sum::<usize>() as f64;
     let place = |(_, at): (f64, usize)| Place {
         x: at % width,
         y: at / width,
         image: pairs.iter().map(|(a, _)| a.samples.get(at)).collect(),
         reference: pairs.iter().map(|(_, r)| r.samples.get(at)).collect(),
     };
-    let mean = |side: usize| whole.sums.iter().map(|sums| sums[side] / whole.finite as f64).collect();
+    let mean = |of: fn(&Sums) -> f64| whole.sums.iter().map(|sums| of(sums) / sums.finite as f64).collect();
     Some(Values {
         same: whole.differing == 0,
         differing: whole.differing as f64 / pixels as f64,
@@ -102,8 +110,8 @@ pub fn values(image: &FileLayer, reference: &FileLayer, width: usize) -> Option<
             unmatched: whole.unmatched,
             first: whole.first.map(|at| [at % width, at / width]),
         },
-        mean_image: mean(0),
-        mean_reference: mean(1),
+        mean_image: mean(|sums| sums.image),
+        mean_reference: mean(|sums| sums.reference),
     })
 }
 
@@ -139,36 +147,31 @@ fn same(i: f64, r: f64) -> bool {
 }
 
 fn part(pairs: &[(&Channel, &Channel)], range: std::ops::Range<usize>) -> Part {
-    let mut part = Part { sums: vec![[0.0; 2]; pairs.len()], ..Part::default() };
+    let mut part = Part { sums: vec![Sums::default(); pairs.len()], ..Part::default() };
     for at in range {
-        let (mut all_finite, mut all_same) = (true, true);
-        for (a, r) in pairs {
+        let mut all_same = true;
+        for ((a, r), sums) in pairs.iter().zip(&mut part.sums) {
             let (i, r) = (a.samples.get(at), r.samples.get(at));
             let same = same(i, r);
             all_same &= same;
             if !i.is_finite() || !r.is_finite() {
-                all_finite = false;
+                // The pixel's other channels count all the same.
                 part.image += usize::from(!i.is_finite());
                 part.reference += usize::from(!r.is_finite());
                 part.unmatched += usize::from(!same);
                 part.first = part.first.or((!same).then_some(at));
+                continue;
             }
-        }
-        part.differing += usize::from(!all_same);
-        if !all_finite {
-            continue;
-        }
-        part.finite += 1;
-        for ((a, r), sums) in pairs.iter().zip(&mut part.sums) {
-            let (i, r) = (a.samples.get(at), r.samples.get(at));
-            sums[0] += i;
-            sums[1] += r;
+            sums.image += i;
+            sums.reference += r;
+            sums.finite += 1;
             let error = (i - r).abs();
             part.square += error * error;
             if error > part.worst.map_or(0.0, |(worst, _)| worst) {
                 part.worst = Some((error, at));
             }
         }
+        part.differing += usize::from(!all_same);
     }
     part
 }
@@ -177,11 +180,11 @@ impl Part {
     fn plus(mut self, other: Part) -> Part {
         let worse = other.worst.is_some_and(|(error, _)| error > self.worst.map_or(0.0, |(worst, _)| worst));
         for (sums, more) in self.sums.iter_mut().zip(&other.sums) {
-            sums[0] += more[0];
-            sums[1] += more[1];
+            sums.finite += more.finite;
+            sums.image += more.image;
+            sums.reference += more.reference;
         }
         Part {
-            finite: self.finite + other.finite,
             differing: self.differing + other.differing,
             square: self.square + other.square,
             worst: if worse { other.worst } else { self.worst },

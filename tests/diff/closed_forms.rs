@@ -79,7 +79,10 @@ fn values_that_are_not_finite_are_counted_and_left_out_of_means() {
     let counts = &found.values.non_finite;
     assert_eq!((counts.image, counts.reference, counts.unmatched), (5, 4, 1));
     assert_eq!(counts.first, Some([0, 0]));
-    near(found.values.mse, 1.0, 1e-12);
+    // Beside a value that is none, the pixel's others count: 4², and thrice 1, of seven.
+    near(found.values.mse, 19.0 / 7.0, 1e-12);
+    assert_eq!(found.values.max_error, 4.0);
+    assert_eq!(found.values.worst.as_ref().map(|worst| (worst.x, worst.y)), Some((1, 0)));
     near(found.colour.expect("colours").relative.rel_mse, 1.0 / 4.01, 1e-12);
     near(found.values.differing, 0.75, 1e-12);
     let settings = Settings::default();
