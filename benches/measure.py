@@ -26,6 +26,8 @@ class Run:
 
 
 def verdict(title, ratio, goal, better):
+    """Prints whether a goal is met, and returns it."""
     met = ratio <= goal if better == "less" else ratio >= goal
     sign = "<=" if better == "less" else ">="
     print("  %-44s %12.3f  (goal %s %.3g) %s" % (title, ratio, sign, goal, "met" if met else "MISSED"))
+    return met
