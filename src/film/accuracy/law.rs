@@ -187,13 +187,14 @@ mod tests {
     /// at the rate 1.37. Each lies between the two laws that are fitted to its change.
     #[test]
     fn the_truth_lies_between_the_laws() {
-        for v in
-            [[1306.0, 207.0, 41.0], [1306.0, 41.0, 9.73]].into_iter().zip([16, 64]).chain([16, 64].map(|n| {
-                let edges = |n: f64| n.powf(-1.37);
-                ([1.0, edges(f64::from(n / 4)), edges(f64::from(n))], n)
-            }))
-        {
-            let ([first, before, now], n) = v;
+        let edges = |n: f64| n.powf(-1.37);
+        let measured = [
+            (16, [1306.0, 207.0, 41.0]),
+            (64, [1306.0, 41.0, 9.73]),
+            (16, [1.0, edges(4.0), edges(16.0)]),
+            (64, [1.0, edges(16.0), edges(64.0)]),
+        ];
+        for (n, [first, before, now]) in measured {
             let change = (before - now) / first;
             let a = Law::of_change(change, n / 2, n).expect("a rate").of(n / 2, n);
             let b = Mixed::of_change(change, n / 2, n).of(n / 2, n);
