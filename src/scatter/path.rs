@@ -45,7 +45,7 @@ struct Path {
     length: f64,
     /// Surfaces passed, which the depth limit counts.
     depth: u32,
-    /// Specular events.
+    /// Specular events, and passed surfaces that do not exist: what shadow rays end at.
     events: u32,
     /// Diffuse surfaces that sent it on.
     bounces: u32,
@@ -163,7 +163,9 @@ impl Walk<'_> {
             shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
             crossing = None;
         } else if unnoticed && let Some(crossing) = &crossing {
-            // Within an object of higher priority this surface does not exist.
+            // Within an object of higher priority this surface does not exist. Shadow rays end at it all the same, so
+            // that what has passed it is for photons to bring.
+            path.events += 1;
             path.ray = world.leaving(surface, crossing.tolerance, path.ray.dir);
             path.media = crossing.after;
             return true;

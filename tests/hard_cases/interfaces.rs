@@ -6,6 +6,7 @@ use crate::plan::lab::{LAMP, own_plan, render, scene};
 use crate::render::caustics::absent;
 use crate::render::glass::fresnel;
 use crate::render::materials::plane;
+use crate::render::shot::focused;
 use std::path::Path;
 use terrarium::description::{Format, load_str};
 use terrarium::optics::Interface;
@@ -103,7 +104,9 @@ fn h14_index_of_the_surroundings() {
         row.holds("the plan has caustics off", !plan.is_on(Effect::Caustics));
         let reason = plan.decisions.iter().find(|d| d.effect == Effect::Refraction).map(ToString::to_string);
         row.says("the plan's word on refraction", &reason.unwrap_or_default(), "off");
+        prove(row, "glass-of-air");
         drop_in_water(row);
+        shadow_in_water(row);
     });
 }
 
@@ -128,6 +131,28 @@ fn drop_in_water(row: &mut Record) {
         pairs.len() as u64,
     );
     row.share("pixels that it leaves the same to 1e-5", same, pairs.len() as u64, 0.9);
+}
+
+/// Lamp, drop and floor under water: what the drop keeps from shadow rays photons bring, and no light is lost.
+fn shadow_in_water(row: &mut Record) {
+    let scene = |drop: &str| {
+        focused(format!(
+            r#"(camera: (eye: (1.2, 2, 0), target: (0, 0, 0), fov_deg: 30), image: (width: 16, height: 16), photons: progressive(count: 40000),
+            materials: {{ "white": (diffuse: 0.8), "water": (transmission: 1, ior: 1.333), "drop": (transmission: 1, ior: 1.333, priority: -1) }},
+            lights: {{ "lamp": sphere(center: (0, 2, 0), radius: 0.1, radiance: 30) }},
+            objects: [(shape: quad(size: (3, 3)), material: "white"), (shape: box(size: (40, 40, 40)), material: "water"){drop}])"#
+        ))
+        .passes(sized(16, 256))
+        .render()
+    };
+    let drop = r#", (shape: sphere(radius: 0.4, center: (0, 1, 0)), material: "drop")"#;
+    let (with, none) = (scene(drop), scene(""));
+    row.is_close(
+        "a floor under water below such a drop, over that floor without it",
+        with.mean() / none.mean(),
+        1.0,
+        5e-3,
+    );
 }
 
 #[test]
