@@ -277,7 +277,7 @@ fn openjd_reads_progress_and_failures_from_standard_output() {
             run(&folder, &format!("render scene.ron -o a.exr -q --set image.width=0 --progress {form}"));
         let said = if form == "json" { &wrong.stderr } else { &wrong.stdout };
         let last = said.lines().last().unwrap_or_default();
-        assert!(wrong.code == Some(2) && last.contains("0 is outside [1, 65536]"), "{said}");
+        assert!(wrong.code == Some(2) && last.contains("0 is outside [1, 1048576]"), "{said}");
         if form == "json" {
             let line: serde_json::Value = serde_json::from_str(last).expect("an object");
             assert_eq!((&line["note"], &line["code"]), (&"failed".into(), &2.into()));

@@ -73,3 +73,25 @@ fn counts_are_the_same_for_any_tiles_and_threads() {
         assert_eq!(counts(1, 32), counts(2, 5), "{}", event.name());
     }
 }
+
+/// Sums have a unit: below it a picture is black, and near it coarse, which is told; a dark place is neither.
+#[test]
+fn a_picture_near_the_unit_of_sums_is_told() {
+    let of = |radiance: f64| {
+        let sky = format!("environment(map: constant({radiance:e}))");
+        scene("", &sky, r#"(shape: sphere(radius: 1), material: "matt")"#).passes(2).render()
+    };
+    for radiance in [1e-25, 1e-14] {
+        let picture = of(radiance);
+        let told =
+            picture.rendered.warnings.iter().any(|w| w.contains("the brightest sample has a radiance"));
+        assert!(told, "{radiance}: {:?}", picture.rendered.warnings);
+    }
+    assert_eq!(of(1e-25).mean(), 0.0);
+    let picture = of(1e-9);
+    assert!(picture.rendered.warnings.is_empty(), "{:?}", picture.rendered.warnings);
+    assert!((picture.mean() / of(1.0).mean() / 1e-9 - 1.0).abs() < 1e-6);
+    let black =
+        scene("", "point(position: (0, 0, 0), intensity: 1)", r#"(shape: sphere(), material: "matt")"#);
+    assert!(black.passes(2).render().rendered.warnings.is_empty());
+}

@@ -148,6 +148,9 @@ fn what_was_dropped_can_be_replayed_by_its_message() {
     let told = text(&replayed.stdout);
     assert!(replayed.status.success(), "{}", text(&replayed.stderr));
     assert!(told.contains("not finite: dropped") && told.contains("light `sun`: (inf, inf, inf)"), "{told}");
+    let strictly = program(folder.path(), &[&arguments[..], &["--strict"]].concat());
+    assert_eq!(strictly.status.code(), Some(1), "{}", text(&strictly.stderr));
+    assert!(text(&strictly.stdout) == told, "it is told all the same");
     let strict = program(folder.path(), &["render", "hot.ron", "-o", "b.exr", "--strict"]);
     let said = text(&strict.stderr);
     assert!(strict.status.code() == Some(1) && said.contains("--pixel"), "{said}");

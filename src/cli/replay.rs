@@ -2,7 +2,7 @@
 
 use super::args::RenderArgs;
 use super::check::{load_and_report, set_threads};
-use super::exit::Failure;
+use super::exit::{FAILED, Failure};
 use super::render::unbuildable;
 use super::report::{self, Terminal, printable};
 use std::fmt::Write;
@@ -19,9 +19,15 @@ pub fn run(args: &RenderArgs, [x, y]: [u32; 2], terminal: &Terminal) -> Result<(
         render::replay(&loaded, &options, place).map_err(|error| unbuildable(error, &loaded, terminal))?;
     if args.replay.json {
         let json = serde_json::to_string_pretty(&found).expect("numbers, strings and lists");
-        return report::print(&(json + "\n"));
+        report::print(&(json + "\n"))?;
+    } else {
+        report::print(&printable(&text(&found)))?;
     }
-    report::print(&printable(&text(&found)))
+    let dropped = found.samples.iter().filter(|sample| sample.dropped).count();
+    if args.strict && dropped > 0 {
+        return Err(Failure::new(FAILED, format!("unhealthy: {dropped} samples were dropped (--strict)")));
+    }
+    Ok(())
 }
 
 /// All of it, sample by sample.

@@ -8,7 +8,7 @@ pub struct ReplayArgs {
     /// Instead of rendering, trace one pixel of one pass again and print all that its paths met. The pixel is
     /// counted from 0, from the top left
     #[arg(long, value_name = "X,Y", value_parser = pixel,
-          conflicts_with_all = ["output", "stats", "depfile", "strict", "stamp", "passes"])]
+          conflicts_with_all = ["output", "stats", "depfile", "stamp", "passes"])]
     pub pixel: Option<[u32; 2]>,
     /// The pass that --pixel is of
     #[arg(long, value_name = "N", default_value_t, requires = "pixel", conflicts_with = "output")]

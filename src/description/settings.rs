@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The image. Width and height in pixels, 1 to 65536.
+/// The image. Width and height in pixels, 1 to [`Image::MAX_SIDE`].
 ///
 /// ```ron
 /// image: (width: 1920, height: 1080, exposure_ev: 0.5, png_bits: 16)
@@ -18,6 +18,11 @@ pub struct Image {
     pub exposure_ev: f64,
     /// Bits a PNG channel: 8 or 16.
     pub png_bits: u8,
+}
+
+impl Image {
+    /// The largest width and height, 2²⁰.
+    pub const MAX_SIDE: u32 = 1 << 20;
 }
 
 impl Default for Image {

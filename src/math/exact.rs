@@ -16,6 +16,9 @@ impl Exact {
     /// The largest term, 2⁴⁵ ≈ 3.5e13: 2²¹ of them fit.
     pub const LIMIT: f64 = (1u64 << 45) as f64;
 
+    /// What terms are truncated to a multiple of.
+    pub const UNIT: f64 = 1.0 / ONE;
+
     /// 32-bit words of one sum.
     pub const WORDS: usize = 12;
 

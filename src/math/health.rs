@@ -2,6 +2,7 @@
 //!
 //! Counters travel with the work that they describe and are summed; nothing is global.
 
+use super::Vec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -63,6 +64,9 @@ pub struct Health {
     pub photons: u64,
     /// The first few places of non-finite samples.
     pub places: Vec<Place>,
+    /// The brightest channel of all finite samples, W·m⁻²·sr⁻¹.
+    #[serde(default)]
+    pub brightest: f32,
 }
 
 /// Places kept; the count goes on.
@@ -84,6 +88,12 @@ impl Health {
         }
     }
 
+    /// Looks at a finite sample's radiance.
+    #[inline]
+    pub fn see(&mut self, radiance: Vec3) {
+        self.brightest = self.brightest.max(radiance.max_element());
+    }
+
     pub fn of(&self, event: Rare) -> u64 {
         self.counts[event as usize]
     }
@@ -94,6 +104,7 @@ impl Health {
         }
         self.samples += other.samples;
         self.photons += other.photons;
+        self.brightest = self.brightest.max(other.brightest);
         for place in &other.places {
             if self.places.len() < PLACES && !self.places.contains(place) {
                 self.places.push(*place);

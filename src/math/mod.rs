@@ -18,5 +18,5 @@ pub use exact::Exact;
 pub use frame::Frame;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 pub use health::{Health, Place, Rare};
-pub use placement::Placement;
+pub use placement::{MAX_SQUEEZE, Placement, flattens};
 pub use ray::Ray;

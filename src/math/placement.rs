@@ -22,6 +22,27 @@ pub struct Placement {
     translation_only: bool,
 }
 
+/// The most by which a map may stretch one direction beyond another. Rays in an object's own space have the
+/// inverse's factors, of which rounding leaves nothing at 2^53 ≈ 1e16.
+pub const MAX_SQUEEZE: f64 = 1e13;
+
+/// Whether a map squeezes space more than [`MAX_SQUEEZE`] times as much one way as another, or has no inverse at
+/// all: ‖M‖·‖M⁻¹‖ in Frobenius norms, computed on M over its largest factor so that no scale overflows.
+pub fn flattens(matrix: &DMat3) -> bool {
+    let largest = matrix.to_cols_array().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return true;
+    }
+    let m = *matrix * (1.0 / largest);
+    let frobenius = |m: &DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    // ‖M⁻¹‖ is that of the cofactors over the determinant.
+    m.determinant().abs() * MAX_SQUEEZE <= frobenius(&m) * frobenius(&cofactors(&m))
+}
+
+fn cofactors(m: &DMat3) -> DMat3 {
+    DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis))
+}
+
 impl Placement {
     pub const IDENTITY: Placement = Placement {
         world_from_object: DAffine3::IDENTITY,
@@ -34,25 +55,21 @@ impl Placement {
         translation_only: true,
     };
 
-    /// `None` for a map that cannot be inverted: |det| < 1e-30·‖M‖³, or outside the normal numbers.
+    /// `None` for a map that [`flattens`], or whose volume leaves the normal numbers.
     pub fn new(world_from_object: DAffine3) -> Option<Placement> {
         let m = world_from_object.matrix3;
         let det = m.determinant();
         let norm = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).length();
-        let flat = det.abs() < 1e-30 * norm * norm * norm;
-        // Of a small map both sides of that may vanish.
-        if !world_from_object.is_finite() || !det.is_normal() || flat {
+        if !world_from_object.is_finite() || !det.is_normal() || flattens(&m) {
             return None;
         }
-        let cofactors =
-            DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let inverse = world_from_object.inverse();
         let back = inverse.matrix3;
         let back_norm = DVec3::new(back.x_axis.length(), back.y_axis.length(), back.z_axis.length()).length();
         Some(Placement {
             world_from_object,
             object_from_world: inverse,
-            normal_matrix: cofactors * det.signum(),
+            normal_matrix: cofactors(&m) * det.signum(),
             det,
             scale: libm::cbrt(det.abs()),
             stretch: if m == DMat3::IDENTITY { 1.0 } else { norm },

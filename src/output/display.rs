@@ -251,7 +251,7 @@ impl Packet {
     }
 
     fn ints(&mut self, values: &[usize]) {
-        // images have at most 65536 pixels a side
+        // images have at most 2^20 pixels a side
         values.iter().for_each(|value| self.0.extend((*value as i32).to_le_bytes()));
     }
 

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use super::kept::Counts;
-use crate::math::{Health, Place, Rare};
+use crate::math::{Exact, Health, Place, Rare};
 
 /// A warning for each event above its healthy share.
 pub fn warnings(health: &Health) -> Vec<String> {
@@ -20,7 +20,23 @@ pub fn warnings(health: &Health) -> Vec<String> {
             event.allowed()
         )
     };
-    health.excesses().map(warning).collect()
+    health.excesses().map(warning).chain(faint(health)).collect()
+}
+
+/// A picture darker than this has fewer than 24 bits over the unit of [`Exact`] sums.
+const FAINT: f32 = 1.0 / (1u64 << 36) as f32;
+
+/// A warning where the sums' unit shows.
+fn faint(health: &Health) -> Option<String> {
+    let brightest = health.brightest;
+    (0.0 < brightest && brightest < FAINT).then(|| {
+        format!(
+            "the brightest sample has a radiance of {brightest:.2e}, and pixels are summed in steps of {:.1e}: \
+             they are coarse, or black; give lights and emission {:.0e} times as much",
+            Exact::UNIT,
+            1.0 / brightest
+        )
+    })
 }
 
 /// A warning where the depth limit has cut paths.

@@ -3,6 +3,7 @@
 use super::share::{By, Shards};
 use super::stop::StopState;
 use super::{Aov, Options, RenderError};
+use crate::description::Image as Settings;
 use crate::film::{Film, Window};
 use crate::math::Health;
 use crate::output::partial::{self, PartialError, checksum};
@@ -156,7 +157,7 @@ impl Form {
     /// Whether numbers could be those of an image: a file may say anything.
     fn is_sound(&self) -> bool {
         let Window { x0, y0, x1, y1 } = self.window;
-        let sides = 1..=1 << 16;
+        let sides = 1..=Settings::MAX_SIDE;
         self.format == FORMAT
             && sides.contains(&self.width)
             && sides.contains(&self.height)

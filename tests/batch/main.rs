@@ -3,8 +3,8 @@
 mod crop;
 mod farm;
 mod faults;
-mod merge;
-mod resume;
+pub(crate) mod merge;
+pub(crate) mod resume;
 
 use std::fs;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// Caustics of a glass ball on a matt floor, a lamp with an extent.
-const CAUSTIC: &str = r#"(
+pub(crate) const CAUSTIC: &str = r#"(
     camera: (eye: (0, 1.6, 4), target: (0, 0.5, 0), fov_deg: 40),
     image: (width: 60, height: 44),
     photons: progressive(count: 20000),
@@ -25,7 +25,7 @@ const CAUSTIC: &str = r#"(
 )"#;
 
 /// Edges that adaptive antialiasing divides, in one pass.
-const ADAPTIVE: &str = r#"(
+pub(crate) const ADAPTIVE: &str = r#"(
     camera: (eye: (0, 1.6, 4), target: (0, 0.5, 0), fov_deg: 40),
     image: (width: 90, height: 70),
     antialiasing: adaptive(depth: 3),
@@ -39,12 +39,12 @@ const ADAPTIVE: &str = r#"(
     ],
 )"#;
 
-struct Lab {
+pub(crate) struct Lab {
     folder: TempDir,
 }
 
 impl Lab {
-    fn new(scene: &str) -> Lab {
+    pub(crate) fn new(scene: &str) -> Lab {
         let folder = tempfile::tempdir().expect("a temporary folder");
         fs::write(folder.path().join("scene.ron"), scene).expect("written");
         Lab { folder }
@@ -68,7 +68,7 @@ impl Lab {
     }
 
     /// Runs the program, which has to end well.
-    fn done(&self, words: &[&str]) -> String {
+    pub(crate) fn done(&self, words: &[&str]) -> String {
         let output = self.run(words);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{words:?}: {said}");
@@ -83,11 +83,11 @@ impl Lab {
         said
     }
 
-    fn render(&self, more: &[&str]) -> String {
+    pub(crate) fn render(&self, more: &[&str]) -> String {
         self.done(&[&["render", "scene.ron", "--progress", "none"], more].concat())
     }
 
-    fn bytes(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
         fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 

@@ -9,7 +9,7 @@ fn numbers(some: &[u32]) -> Vec<u32> {
 }
 
 /// Renders `n` shards with other threads and tiles each, and merges them from the last to the first.
-fn in_parts(lab: &Lab, n: u32, more: &[&str]) -> Vec<u8> {
+pub(crate) fn in_parts(lab: &Lab, n: u32, more: &[&str]) -> Vec<u8> {
     let names: Vec<String> = (0..n).map(|i| format!("part{i}.exr")).collect();
     for (i, name) in names.iter().enumerate() {
         let (shard, threads) = (format!("{i}/{n}"), ["1", "2", "5"][i % 3]);

@@ -30,6 +30,31 @@ fn kills_at_most() -> u64 {
     std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(5)
 }
 
+/// Renders to `killed.exr`, killed at most so many times, each at another moment, until it is done; `whole` is
+/// what a render that is not killed takes, in milliseconds. How often it was killed.
+pub(crate) fn killed(lab: &Lab, words: &[&str], most: u64, whole: u64) -> u32 {
+    let again = [words, &["-o", "killed.exr", "--checkpoint", "10ms", "--resume"]].concat();
+    let mut kills = 0;
+    for i in 0..most {
+        let mut child = begun(lab, &again);
+        let end = Instant::now() + moment(i, whole / 2 + 20);
+        while Instant::now() < end && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        kills += u32::from(child.try_wait().expect("a child").is_none());
+        let _ = child.kill();
+        let _ = child.wait();
+        let found = lab.path("killed.exr");
+        if found.exists() {
+            assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "a file that is not whole");
+            // Begun anew, to be killed at other moments.
+            std::fs::remove_file(found).expect("removed");
+        }
+    }
+    lab.done(&again);
+    kills
+}
+
 /// Killed again and again, at other moments, until it is done.
 #[test]
 fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
@@ -42,27 +67,8 @@ fn a_render_that_is_killed_goes_on_to_the_bits_of_one_that_is_not() {
         let words = [&["render", "scene.ron", "-q"], work].concat();
         let began = Instant::now();
         lab.done(&[&words[..], &["-o", "whole.exr"]].concat());
-        let whole = began.elapsed().as_millis() as u64;
-        let again = [&words[..], &["-o", "killed.exr", "--checkpoint", "10ms", "--resume"]].concat();
-        let mut kills = 0;
-        for i in 0..kills_at_most() {
-            let mut child = begun(&lab, &again);
-            let end = Instant::now() + moment(i, whole / 2 + 20);
-            while Instant::now() < end && child.try_wait().expect("a child").is_none() {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-            kills += u32::from(child.try_wait().expect("a child").is_none());
-            let _ = child.kill();
-            let _ = child.wait();
-            let found = lab.path("killed.exr");
-            if found.exists() {
-                assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "a file that is not whole");
-                // Begun anew, to be killed at other moments.
-                std::fs::remove_file(found).expect("removed");
-            }
-        }
+        let kills = killed(&lab, &words, kills_at_most(), began.elapsed().as_millis() as u64);
         assert!(kills > 0, "nothing was killed");
-        lab.done(&again);
         assert!(lab.bytes("killed.exr") == lab.bytes("whole.exr"), "{work:?} after {kills} kills");
         assert!(!lab.names().iter().any(|name| name.ends_with(".checkpoint")), "{:?}", lab.names());
     }

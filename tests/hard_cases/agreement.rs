@@ -3,15 +3,17 @@
 use super::proofs::prove;
 use super::record::{Record, row, sized};
 use super::seen;
-use crate::photons::lab::{lab, on_patch, power};
+use crate::photons::lab::{lab, lab_in, on_patch, power};
 use crate::render::caustics::lab::{estimate, parts};
 use crate::render::caustics::scales;
+use crate::render::meshes::{folder, write_exr};
 use crate::render::shot::{agreement, shot};
 use crate::render::stability::{assets, render_everything};
 use std::f64::consts::PI;
+use std::path::Path;
 use terrarium::scatter::{Aim, Store};
 
-const LIGHTS: [(&str, &str); 8] = [
+const LIGHTS: [(&str, &str); 9] = [
     ("point", r#""a": point(position: (0.5, 2, 0.3), intensity: 7)"#),
     (
         "point, classic falloff",
@@ -29,6 +31,7 @@ const LIGHTS: [(&str, &str); 8] = [
         r#""a": disk(center: (0, 2, 0), normal: (0.3, -1, 0), radius: 0.6, radiance: 5, two_sided: true)"#,
     ),
     ("environment", r#""a": environment(map: gradient(zenith: 3, horizon: 1, nadir: 0.1))"#),
+    ("environment, image", r#""a": environment(map: image(path: "sky.exr"))"#),
 ];
 
 /// Emitting objects: material, object.
@@ -48,9 +51,9 @@ const FLOOR: &str = r#"(shape: quad(size: (4, 4)), material: "white")"#;
 const LAMP: &str = r#""lamp": (diffuse: 0, emission: 5)"#;
 
 /// Irradiance of the square metre around (0.4, 0, 0.2): by photons with its error, and by shadow rays.
-fn both(lights: &str, objects: &str) -> [f64; 3] {
+fn both(folder: &Path, lights: &str, objects: &str) -> [f64; 3] {
     let at = [0.4, 0.2];
-    let scene = lab(LAMP, lights, &format!("{FLOOR}{objects}"));
+    let scene = lab_in(folder, "", LAMP, lights, &format!("{FLOOR}{objects}"));
     let passes = scene.passes(Store::Direct, Aim::Scene, 24, sized(40_000, 160_000));
     let found = power(&passes, |p| on_patch(&scene, p, at, 0.5));
     // From straight above and below all lamps; a ray a pixel has its shadow rays.
@@ -59,17 +62,22 @@ fn both(lights: &str, objects: &str) -> [f64; 3] {
         materials: {{ "white": (diffuse: 1), {LAMP} }}, lights: {{ {lights} }}, objects: [{FLOOR}{objects}])"#,
         2.0 * (0.5f64 / 1.2).atan().to_degrees()
     );
-    let rays = shot(text).passes(sized(64, 512)).render().mean() * PI;
+    let rays = shot(text).folder(folder).passes(sized(64, 512)).render().mean() * PI;
     [found.mean, found.error, rays]
 }
 
 #[test]
 fn h35_photons_agree_with_shadow_rays() {
     row("H35", |row| {
+        let dir = folder();
+        // A sun in a sky that is uneven to the last texel.
+        write_exr(&dir.path().join("sky.exr"), 16, 8, |x, y| {
+            if (x, y) == (5, 1) { [60.0; 3] } else { [0.2 + ((3 * x + 5 * y) % 7) as f32; 3] }
+        });
         let objects = OBJECTS.map(|(name, object)| (name, String::new(), format!(", {object}")));
         let lights = LIGHTS.map(|(name, light)| (name, light.to_owned(), String::new()));
         for (name, light, object) in lights.into_iter().chain(objects) {
-            let [photons, error, rays] = both(&light, &object);
+            let [photons, error, rays] = both(dir.path(), &light, &object);
             let what = format!(
                 "{name}: irradiance by photons over that by shadow rays (3σ, at most {} %)",
                 sized(2, 1)

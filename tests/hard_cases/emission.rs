@@ -2,10 +2,12 @@
 
 use super::record::{Record, row, sized};
 use crate::photons::directions::{Judged, judge, judge_places, lamp_in_a_sphere};
-use crate::photons::lab::{Lab, estimate, lab};
+use crate::photons::lab::{Lab, estimate, lab, lab_in};
 use crate::photons::ledger::medley;
 use crate::render::caustics::absent;
+use crate::render::shot::focused;
 use std::f64::consts::PI;
+use std::path::Path;
 use terrarium::math::sampling::SphericalCell;
 use terrarium::math::{DVec2, DVec3, Frame};
 use terrarium::scatter::{Aim, Photon, Scattered, Store};
@@ -229,6 +231,32 @@ fn h34_power_ledger() {
         );
         row.at_most("photons' own power added up, off the ledger's as a share", single, 1e-5);
         row.at_most("the share cut at the depth limit", cut, 1e-3);
+        cut_off(row);
         row.none("photons that come from behind, are no unit, or not counted", wrong, photons);
     });
+}
+
+/// Sun between two mirrors that face each other, aslant: half of it goes on for ever, and is cut.
+fn cut_off(row: &mut Record) {
+    let mirrors = r#"(shape: quad(size: (9, 9)), material: "mirror", transform: [translate((0, -1, 0))]),
+        (shape: quad(size: (9, 9)), material: "mirror", transform: [translate((0, 1, 0))]),
+        (shape: quad(size: (1, 1)), material: "white", transform: [translate((0, 4, 0))])"#;
+    let lamp = r#""lamp": point(position: (0, 0, 0), intensity: 1)"#;
+    let lab = lab_in(Path::new(""), "render: (max_depth: 5),", "", lamp, mirrors);
+    let passes = lab.caustics(3, sized(20_000, 1_000_000));
+    let (mut imbalance, mut cut) = (0.0f64, f64::INFINITY);
+    for pass in &passes {
+        imbalance = imbalance.max(pass.ledger.imbalance());
+        cut = cut.min(pass.ledger.cut.x / pass.ledger.emitted.x);
+    }
+    row.at_least("a lamp between two mirrors, 5 reflections at most: the share cut", cut, 0.1);
+    row.at_most("emitted less all the rest there, as a share", imbalance, 1e-12);
+    let picture = focused(format!(
+        r#"(camera: (eye: (3, 0.5, 0), target: (0, 0, 0)), image: (width: 8, height: 8), render: (max_depth: 5),
+        materials: {{ "white": (diffuse: 1), "mirror": (reflection: 1) }}, lights: {{ {lamp} }}, objects: [{mirrors}])"#
+    ))
+    .passes(2)
+    .render();
+    let told = picture.rendered.warnings.iter().find(|w| w.contains("photons' power")).cloned();
+    row.says("what is said of it", &told.unwrap_or_default(), "of the photons' power was cut off after 5");
 }

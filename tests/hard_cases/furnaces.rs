@@ -139,6 +139,7 @@ fn other_engines(row: &mut Record) {
 fn h38_roulette_and_depth() {
     row("H38", |row| {
         roulette(row);
+        prove(row, "facing-mirrors");
         let fading = facing(0.99, 100);
         let cut = fading.rendered.stats.truncated_weight;
         row.is_close(

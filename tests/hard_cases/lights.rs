@@ -134,6 +134,7 @@ fn h27_tiny_and_enclosing_sphere_lights() {
             );
             row.is(&what, irradiance(&light, 16) / point, 1.0, f64::max(1e-4, 4.0 * r));
         }
+        shrinking(row);
         let mut off = 0.0f64;
         for r in [0.9, 0.3, 1e-2, 1e-4, 1e-6, 1e-8] {
             for (d, theta) in [(2.0, 0.0), (2.0, 0.7), (3.0, 1.2)] {
@@ -162,6 +163,31 @@ fn h27_tiny_and_enclosing_sphere_lights() {
             "lights.a.sphere.radius: 0 is not above 0",
         );
     });
+}
+
+/// A sphere of the power of a point, the smaller the nearer to it. Samples lie symmetrically in its cone, so that
+/// their own noise is far below (r/d)².
+fn shrinking(row: &mut Record) {
+    let (d, theta) = (3.0, 0.7);
+    let axis = DVec3::new(libm::sin(theta), libm::cos(theta), 0.0);
+    // I cosθ/d² with I = πr²L.
+    let point = |r: f64| PI * r * r * libm::cos(theta) / (d * d);
+    let mut most = 0.0f64;
+    for r in [0.9, 0.3, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        let shape = Shape::Sphere(Sphere::new(r, axis * d));
+        let estimate = |u| shape.sample_direction(DVec3::ZERO, u).map_or(0.0, |s| s.dir.y.max(0.0) / s.pdf);
+        let side = 64;
+        let at = |i: i32| (f64::from(i) + 0.5) / f64::from(side);
+        let sum: f64 = (0..side * side).map(|i| estimate([at(i % side), at(i / side)])).sum();
+        let e = sum / f64::from(side * side);
+        // Below 1e-7 rounding is more than the bound.
+        most = most.max((e / point(r) - 1.0).abs() / f64::max((r / d).powi(2), 1e-14));
+    }
+    row.at_most(
+        "spheres of radius 0.9 to 1e-8 and the power of a point: |E/E of the point − 1| over (r/d)² (or 1e-14)",
+        most,
+        1.0,
+    );
 }
 
 #[test]

@@ -229,6 +229,7 @@ fn h43_malformed_files() {
         let dir = folder();
         let cases: Vec<Case> = scenes().into_iter().chain(meshes()).chain(images(dir.path())).collect();
         let (mut wrong, mut panics, mut silent, mut slowest) = (Vec::new(), 0, 0, 0.0f64);
+        let (mut placeless, mut texts) = (Vec::new(), 0);
         for case in &cases {
             let (code, said, seconds) = run(dir.path(), case);
             if ![2, 3].contains(&code) {
@@ -238,6 +239,12 @@ fn h43_malformed_files() {
             silent +=
                 u64::from(!said.contains(case.file) && !said.contains("..") && !said.contains("/dev/zero"));
             slowest = slowest.max(seconds);
+            if case.file != "image" {
+                texts += 1;
+                if !names_a_line(&said) {
+                    placeless.push(case.name.clone());
+                }
+            }
         }
         let named = if wrong.is_empty() { String::new() } else { format!(" ({})", wrong.join("; ")) };
         let n = cases.len() as u64;
@@ -248,9 +255,23 @@ fn h43_malformed_files() {
         );
         row.none("panics", panics, n);
         row.none("messages that do not name the file", silent, n);
+        let named = if placeless.is_empty() { String::new() } else { format!(" ({})", placeless.join("; ")) };
+        row.none(
+            &format!("messages on scenes and meshes that do not name the line{named}"),
+            placeless.len() as u64,
+            texts,
+        );
         row.at_most("seconds for the slowest", slowest, 1.0);
         harmless(row, dir.path());
     });
+}
+
+/// Whether a message says `file:LINE:`.
+fn names_a_line(said: &str) -> bool {
+    said.lines().any(|line| {
+        let mut parts = line.split(':').skip(1);
+        parts.next().is_some_and(|part| part.parse::<u64>().is_ok_and(|n| n > 0))
+    })
 }
 
 /// What looks odd and is no mistake.
@@ -262,8 +283,9 @@ fn harmless(row: &mut super::record::Record, folder: &Path) {
         case("a PNG with a zTXt chunk that inflates to 100 MB", "image", png_with_bomb(&whole[0].1)),
     ];
     for case in cases {
-        let (code, said, _) = run(folder, &case);
+        let (code, said, seconds) = run(folder, &case);
         row.is(&format!("exit code of {}", case.name), f64::from(code), 0.0, 0.0);
+        row.at_most("its seconds", seconds, 1.0);
         assert!(code == 0, "{}: {said}", case.name);
     }
 }

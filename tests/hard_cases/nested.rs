@@ -13,6 +13,7 @@ use terrarium::math::DVec3;
 fn h17_glass_against_water() {
     row("H17", |row| {
         three_ways(row);
+        prove(row, "glass-on-water");
         reflectance(row);
         no_speckle(row);
     });

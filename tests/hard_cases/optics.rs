@@ -1,5 +1,6 @@
 //! Optics that a textbook states: a ball lens, a prism, a slab, a rainbow; and plain mirrors.
 
+use super::proofs::prove;
 use super::record::{Record, row, sized};
 use crate::render::glass::{GLASS, Ruler, fresnel};
 use crate::render::meshes::Obj;
@@ -108,6 +109,7 @@ fn slab(row: &mut Record) {
     row.is("shift of a ray at 45° by a slab of 1 m, n = 1.5, m", (1.5 - y) / 2f64.sqrt(), 0.329_142, 2e-6);
     let f = fresnel(0.5f64.sqrt(), 1.5);
     row.is_close("what of the light comes through: (1 − F)²", weight, (1.0 - f).powi(2), 1e-6);
+    prove(row, "slab");
 }
 
 /// Sunlight into a drop, mirrored once inside, out again: the angle at which most comes back, from the point

@@ -188,6 +188,15 @@ fn h31_radius_zero() {
             }
         }
         row.at_most("100 photons on one point: their power over the floor, off as a share", off, 0.01);
+        // The 50 nearest are all at a distance of 0; the floor is what they are spread over.
+        let floor = Radius::Nearest { k: 50, min: 0.6, max: 1.0 };
+        let there = irradiance(&map, Vec3::ZERO, floor, Kernel::Disc);
+        row.is_close(
+            "where the k-nearest distance is 0: all 100 over π·0.6²",
+            there,
+            100.0 / (PI * 0.36),
+            1e-6,
+        );
         row.none("estimates there with a radius of 0 that are no numbers", bad, 6);
     });
 }

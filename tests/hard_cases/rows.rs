@@ -176,7 +176,8 @@ const DIELECTRICS: &[Row] = &[
         "h14_index_of_the_surroundings",
         "glass of the index around it turns sharp direct light into blurred photons",
         "such an interface is none: no caster, no shadow, no photons",
-    ),
+    )
+    .without("That is so of index 1. A solid of the index of another one around it is known to be none where a path meets it, not when the scene is planned: shadow rays end at it, and photons bring what it seems to hide."),
     row(
         "H15",
         "h15_indices_below_one",
@@ -252,7 +253,8 @@ const LIGHTS: &[Row] = &[
         "h27_tiny_and_enclosing_sphere_lights",
         "1 − cosθ is 0 for a small lamp; the root of a negative number inside of one",
         "1 − cosθ = sin²θ/(1 + cosθ); inside, the whole sphere",
-    ),
+    )
+    .without("A sphere of radius 0 is refused: it is given by its radiance, of which no power follows. The light `point` is what it would be."),
     row(
         "H28",
         "h28_lights_without_light",
@@ -306,7 +308,7 @@ const SAMPLING: &[Row] = &[
     row("H41", "h41_variance_of_few_samples", "one sample has no variance; a large mean eats a small one", "unknown is said to be unknown; Welford's recurrence"),
     row("H42", "h42_bad_texels", "NaN, infinite and negative texels", "mended when read, counted by file, told"),
     row("H43", "h43_malformed_files", "empty, truncated, lying and hostile files", "typed errors with their place; limits before memory is taken")
-        .without("PLY, glTF and MTL are not read. Each parser has its own tests of every truncation and of thousands of mutations; this row is what the program does."),
+        .without("PLY, glTF and MTL are not read. Each parser has its own tests of every truncation and of thousands of mutations; this row is what the program does. Of an image the file and the fault are named, not the byte: decoders do not tell it."),
     row("H44", "h44_extreme_image_sizes", "sizes whose product overflows or does not fit", "64-bit sizes; the image's memory is refused before it is taken"),
     row("H45", "h45_features_below_a_pixel", "wires thinner than a pixel; edges of any brightness", "samples over the whole pixel; bounded division"),
     row("H46", "h46_endless_reflections", "facing mirrors", "a loop, not recursion; what is cut is told"),

@@ -1,6 +1,7 @@
 //! The same bits: for any number of threads, any tiles, in parts, and with denormal numbers flushed.
 
 use super::record::{Record, row, sized};
+use crate::batch::{ADAPTIVE, CAUSTIC, Lab, merge, resume};
 use crate::render::caustics::parts as focused;
 use crate::render::determinism::{exr, scene};
 use crate::render::meshes::folder;
@@ -8,6 +9,7 @@ use crate::render::shot::{Picture, Shot};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 use terrarium::render::Aov;
 
 const LAYERS: [Aov; 10] = [
@@ -70,33 +72,38 @@ fn h48_the_same_bits() {
         );
         row.all(&what, same, renders);
         in_parts(row);
+        killed(row);
     });
 }
 
-/// Passes rendered in one to seven parts, each alone and in another order, averaged in double precision.
+/// Shards of passes and of tiles, each with other threads, merged from the last to the first.
 fn in_parts(row: &mut Record) {
-    let shot = focused::scene("progressive", focused::BY_PHOTONS);
-    let passes = sized(14, 28);
-    let whole = shot.clone().passes(passes).render().grey();
-    let mut off = 0.0f64;
-    for parts in sized(&[7u32][..], &[1, 2, 3, 4, 5, 6, 7]) {
-        let mut mean = vec![0.0; whole.len()];
-        for part in (0..*parts).rev() {
-            let range = part * passes / parts..(part + 1) * passes / parts;
-            let share = f64::from(range.end - range.start) / f64::from(passes);
-            let picture = shot.clone().pass_range(range).render().grey();
-            mean.iter_mut().zip(picture).for_each(|(sum, value)| *sum += share * value);
-        }
-        for (a, b) in mean.iter().zip(&whole) {
-            off = off.max((a - b).abs() / b.abs().max(1e-6));
-        }
+    for (what, scene, more) in [
+        ("of 14 passes with caustics", CAUSTIC, &["--passes", "14", "--aov", "caustic,variance"][..]),
+        ("of tiles, antialiased where there are edges", ADAPTIVE, &["--aov", "edges,depth"]),
+    ] {
+        let lab = Lab::new(scene);
+        lab.render(&[&["-o", "whole.exr"], more].concat());
+        let whole = lab.bytes("whole.exr");
+        let parts = sized(&[3u32][..], &[1, 2, 3, 4, 5, 6, 7]);
+        let same = parts.iter().filter(|n| merge::in_parts(&lab, **n, more) == whole).count();
+        let what =
+            format!("files merged from up to {} shards {what} with the bytes of one render's", sized(3, 7));
+        row.all(&what, same as u64, parts.len() as u64);
     }
-    row.at_most(
-        &format!(
-            "{passes} passes in up to 7 parts, averaged, off those in one, as a share (f32 images: 2^-23)"
-        ),
-        off,
-        2.4e-7,
+}
+
+/// A render that is killed at chance moments and resumed, to its end.
+fn killed(row: &mut Record) {
+    let lab = Lab::new(CAUSTIC);
+    let words = ["render", "scene.ron", "-q", "--passes", "24"];
+    let began = Instant::now();
+    lab.done(&[&words[..], &["-o", "whole.exr"]].concat());
+    let kills = resume::killed(&lab, &words, sized(3, 20), began.elapsed().as_millis() as u64);
+    row.at_least("kills of a render that is resumed each time", f64::from(kills), 1.0);
+    row.holds(
+        "its file has the bytes of a render's that nothing stopped",
+        lab.bytes("killed.exr") == lab.bytes("whole.exr"),
     );
 }
 
@@ -122,7 +129,10 @@ fn h53_flushed_denormals() {
         let dir = folder();
         std::fs::write(dir.path().join("scene.ron"), SCENE).expect("written");
         let plain = render(dir.path(), "plain.exr", None);
-        row.holds("a scene of lengths of 1e-5 m and radiances down to 1e-30 renders", plain.is_some());
+        row.holds(
+            "a scene of lengths of 1e-5 m, under a sky of 1e-12 to 1e-30 beside a lamp of 9, renders",
+            plain.is_some(),
+        );
         let Some(host) = host(dir.path()) else {
             row.skip("there is no x86-64 Linux with a C compiler, by which a host sets the mode");
             return;

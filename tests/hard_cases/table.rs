@@ -45,8 +45,10 @@ fn every_row_has_its_test_or_a_reason_why_not() {
 fn the_page_has_a_line_for_every_row() {
     let page = std::fs::read_to_string(page()).expect("`make hard` writes it");
     for row in rows::all() {
-        let line = format!("\n| {} |", row.id);
+        let line = format!("\n| {} | {} |", row.id, what(row));
         assert_eq!(page.matches(&line).count(), 1, "docs/hard-cases.md: {}: run `make hard`", row.id);
+        let excluded = format!("\n- {}: {}\n", row.id, row.excluded);
+        assert!(row.excluded.is_empty() || page.contains(&excluded), "docs/hard-cases.md: {}", row.id);
     }
 }
 
@@ -112,10 +114,14 @@ fn text(outcomes: &BTreeMap<String, Outcome>) -> String {
     page
 }
 
+/// What breaks, and the remedy.
+fn what(row: &Row) -> String {
+    let both = format!("{} → {}", row.case, row.remedy);
+    cell(if row.remedy.is_empty() { row.case } else { &both })
+}
+
 fn line(row: &Row, outcome: Option<&Outcome>) -> String {
-    let what =
-        if row.remedy.is_empty() { row.case.to_owned() } else { format!("{} → {}", row.case, row.remedy) };
-    let what = cell(&what);
+    let what = what(row);
     if row.test.is_empty() {
         return format!("| {} | {what} | | | | | excluded |\n", row.id);
     }

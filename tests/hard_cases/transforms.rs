@@ -1,5 +1,6 @@
 //! Scales that are uneven, mirrored, flat, or merely extreme.
 
+use super::proofs::prove;
 use super::record::{Record, row, sized};
 use super::solids::unit;
 use crate::render::shot::{agreement, shot};
@@ -23,6 +24,7 @@ fn h23_uneven_scale() {
         );
         ellipsoid_normals(row);
         ellipsoid_picture(row);
+        prove(row, "ellipsoid");
     });
 }
 
@@ -115,6 +117,8 @@ fn h25_singular_transforms() {
             "scale(0)",
             "matrix(((1, 2, 0, 0), (2, 4, 0, 0), (0, 0, 1, 0)))",
             "scale((1, 1e-40, 1))",
+            "scale((1e-14, 1, 1))",
+            "scale((1e-25, 1, 1e25))",
             "scale(1e-110)",
             "scale(1e-60), scale(1e-60)",
             "scale(1e-170)",
@@ -141,6 +145,16 @@ fn h25_singular_transforms() {
             ))
             .render()
         };
+        let squeezed = |s: f64| {
+            shot(format!(
+                r#"(camera: (eye: (3, 0.5, 0), target: (0, 0, 0)), image: (width: 32, height: 32), antialiasing: none,
+                materials: {{ "glow": (emission: 1) }}, objects: [(shape: sphere(), material: "glow", transform: [scale(({s:e}, 1, 1))])])"#
+            ))
+            .render()
+        };
+        let (disk, thin) = (squeezed(1e-6), squeezed(1e-12));
+        let same = (agreement(&disk, &thin, 0.0) * 1024.0).round() as u64;
+        row.all("pixels of a ball squeezed by 1e-12 that are those of one squeezed by 1e-6", same, 1024);
         let one = view(1.0);
         for s in [1e-12, 1e12] {
             let same = (agreement(&one, &view(s), 1e-4) * 81.0).round() as u64;

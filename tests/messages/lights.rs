@@ -32,6 +32,12 @@ pub const CASES: &[super::Case] = &[
         &["2:67: error: lights.l.quad.edge_v: `edge_v` is parallel to `edge_u`: the quad has no area"],
     ),
     (
+        r#"lights: { "l": quad(corner: (0, 0, 0), edge_u: (1, 0, 0), edge_v: (0, 1e40, 0), radiance: 1) }"#,
+        &[
+            "2:67: error: lights.l.quad.edge_v: a quad more than 1e13 times as long as wide, or whose area leaves the range of numbers, cannot be placed",
+        ],
+    ),
+    (
         r#"lights: { "l": disk(center: (0, 0, 0), normal: (0, 0, 0), radius: 1, radiance: 1) }"#,
         &["2:48: error: lights.l.disk.normal: a direction cannot be (0, 0, 0)"],
     ),

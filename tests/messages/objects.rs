@@ -126,7 +126,21 @@ pub const CASES: &[super::Case] = &[
     ),
     (
         r#"objects: [(shape: sphere(), material: "m", transform: [scale(1e-300)])]"#,
-        &["2:55: error: objects.0.transform: together these steps flatten the object to nothing"],
+        &[
+            "2:55: error: objects.0.transform: together these steps flatten the object to nothing, or take its volume out of the range of numbers",
+        ],
+    ),
+    (
+        r#"objects: [(shape: sphere(), material: "m", transform: [scale((1, 1e-14, 1))])]"#,
+        &[
+            "2:56: error: objects.0.transform.0: this step squeezes more than 1e13 times as much one way as another",
+        ],
+    ),
+    (
+        r#"objects: [(shape: group(objects: [(shape: sphere(), material: "m", transform: [scale((1, 1e-7, 1))])]), transform: [scale((1, 1e-7, 1))])]"#,
+        &[
+            "2:79: error: objects.0.shape.group.objects.0.transform: together with the transforms of the groups around it these flatten the object to nothing, or take its volume out of the range of numbers",
+        ],
     ),
     (
         r#"objects: [(shape: sphere(), material: "m", transform: [rotate(axis: (1e300, 0, 0), deg: 5)])]"#,

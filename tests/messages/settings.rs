@@ -52,10 +52,10 @@ pub const CASES: &[super::Case] = &[
         &["2:9: error: camera: expected (field: …), found a map in { }"],
     ),
     (
-        "image: (width: 0, height: 65537)",
+        "image: (width: 0, height: 1048577)",
         &[
-            "2:16: error: image.width: 0 is outside [1, 65536]",
-            "2:27: error: image.height: 65537 is outside [1, 65536]",
+            "2:16: error: image.width: 0 is outside [1, 1048576]",
+            "2:27: error: image.height: 1048577 is outside [1, 1048576]",
         ],
     ),
     (

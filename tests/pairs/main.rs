@@ -43,8 +43,11 @@ fn the_array_covers_every_pair() {
     assert!(rows.len() < least * 3 / 2, "{} rows, {least} at least", rows.len());
 }
 
+/// By how much the means of such scenes may differ, as a share. Of the 54 the most that was found is 0.041.
+const NOISE: f64 = 0.06;
+
 /// Finite, not negative, healthy, and no brighter than what shines; the same bits on one thread and on two, in
-/// tiles of any size; and where nothing is focused, with everything that could run forced to.
+/// tiles of any size, to the bit; and with everything that could run forced to, to the bit where no photons are sent.
 #[test]
 fn every_pair_is_sound_and_the_same_however_it_is_computed() {
     let folder = scene::folder();
@@ -66,16 +69,20 @@ fn every_pair_is_sound_and_the_same_however_it_is_computed() {
         assert!(mean > 0.0 && mean <= most, "{what}: {mean}, {most} at most: {text}");
         let again = with(Options { threads: Some(2), tile: 5, ..base.clone() });
         assert!(picture.bits() == again.bits(), "{what}: threads and tiles change the picture: {text}");
-        let photons = &picture.rendered.stats.photons;
+        let overrides = Overrides { forced: true, ..Overrides::default() };
+        let forced = with(Options { overrides, ..base });
         // Glass that light does not notice is glass when forced, and has shadows and caustics.
-        let nothing = scene::is_unnoticed(row);
-        if !nothing && photons.photons.is_none() && photons.indirect_photons.is_none() {
-            let overrides = Overrides { forced: true, ..Overrides::default() };
-            let forced = with(Options { overrides, ..base });
-            assert!(
-                picture.bits() == forced.bits(),
-                "{what}: what the plan left out changes the picture: {text}"
-            );
+        let photons = &picture.rendered.stats.photons;
+        let focused = photons.photons.is_some() || photons.indirect_photons.is_some();
+        if scene::is_unnoticed(row) && !scene::has_photons(row) {
+            // As glass it has a shadow, and the scene asks for nothing that brings its light.
+        } else if focused || scene::is_unnoticed(row) {
+            // Photons are sent elsewhere: the same to the noise of two passes of a thousand.
+            let off = (forced.mean() / mean - 1.0).abs();
+            assert!(off <= NOISE, "{what}: what the plan left out is {off} of the picture: {text}");
+        } else {
+            let same = picture.bits() == forced.bits();
+            assert!(same, "{what}: what the plan left out changes the picture: {text}");
         }
     }
 }

@@ -78,6 +78,11 @@ pub fn is_unnoticed([_, material, ..]: [usize; 6]) -> bool {
     material == MATERIALS.len() - 1
 }
 
+/// Whether photons are sent where something focuses them.
+pub fn has_photons([.., photons]: [usize; 6]) -> bool {
+    PHOTONS[photons] != "off"
+}
+
 pub fn text([light, material, shape, antialiasing, effect, photons]: [usize; 6]) -> String {
     let lens = if effect == LENS { ", aperture_m: 0.1" } else { "" };
     let lamp = match LIGHTS[light] {

@@ -96,7 +96,7 @@ fn wrong_overrides_are_reported_in_the_argument() {
             "image.width=wide",
             "--set image.width=wide:13: error: image.width: expected a whole number from 0 to 4294967295, found `wide`",
         ),
-        ("image.width=0", "--set image.width=0:13: error: image.width: 0 is outside [1, 65536]"),
+        ("image.width=0", "--set image.width=0:13: error: image.width: 0 is outside [1, 1048576]"),
         (
             "objects.gme.material=glass",
             "--set objects.gme.material=glass:9: error: no entry is named `gme`; did you mean `gem`? (known: `floor`, `pillar`, `gem`, `tree`, `two`, `meadow`, `glow`, `cube`)",

@@ -3,7 +3,7 @@
 use super::Checker;
 use crate::description::tree::{Path, number};
 use crate::description::{EnvironmentMap, Light, Rgb};
-use glam::DVec3;
+use crate::math::{DAffine3, DMat3, DVec3, MAX_SQUEEZE, Placement};
 
 pub(super) fn check(c: &mut Checker) {
     let mut environment: Option<&str> = None;
@@ -124,5 +124,18 @@ fn parallelogram(c: &mut Checker, path: &Path, edge_u: [f64; 3], edge_v: [f64; 3
         && a.cross(b).length() < 1e-12
     {
         c.error_about(&[&v, &u], "`edge_v` is parallel to `edge_u`: the quad has no area");
+    } else if !places(edge_u.into(), edge_v.into()) {
+        let message = format!(
+            "a quad more than {MAX_SQUEEZE:e} times as long as wide, or whose area leaves the range of numbers, \
+             cannot be placed"
+        );
+        c.error_about(&[&v, &u], message);
     }
+}
+
+/// Whether the quad can be placed: edges, and a normal as long as the root of the area.
+fn places(edge_u: DVec3, edge_v: DVec3) -> bool {
+    let normal = edge_u.cross(edge_v);
+    let third = normal.normalize_or_zero() * normal.length().sqrt();
+    Placement::new(DAffine3::from_mat3(DMat3::from_cols(edge_u, third, edge_v))).is_some()
 }

@@ -3,8 +3,7 @@
 use super::Checker;
 use crate::description::tree::{Path, number};
 use crate::description::{Object, Scale, Scatter, Shape, Transform};
-use crate::math::Placement;
-use glam::{DAffine3, DMat3, DVec3};
+use crate::math::{DAffine3, DMat3, DVec3, MAX_SQUEEZE, Placement, flattens};
 use std::collections::HashMap;
 
 /// The place of `objects`.
@@ -14,12 +13,12 @@ pub(super) fn list() -> Path {
 
 pub(super) fn check(c: &mut Checker) {
     for (name, object) in c.scene.definitions.iter() {
-        check_object(c, &Path::of("definitions").key(name), object);
+        check_object(c, &Path::of("definitions").key(name), object, DMat3::IDENTITY);
     }
     let mut names = HashMap::new();
     for (i, object) in c.scene.objects.iter().enumerate() {
         let path = list().index(i);
-        check_object(c, &path, object);
+        check_object(c, &path, object, DMat3::IDENTITY);
         unique_names(c, &path, object, &mut names);
     }
 }
@@ -44,11 +43,12 @@ fn unique_names<'a>(c: &mut Checker, path: &Path, object: &'a Object, names: &mu
     }
 }
 
-fn check_object(c: &mut Checker, path: &Path, object: &Object) {
+/// `around`: the product of the transforms of the groups that the object is in.
+fn check_object(c: &mut Checker, path: &Path, object: &Object, around: DMat3) {
     if object.name.as_deref() == Some("") {
         c.error(&path.key("name"), "a name cannot be empty");
     }
-    transforms(c, &path.key("transform"), &object.transform);
+    let placed = transforms(c, path, &object.transform, around);
     let shape = path.key("shape");
     match &object.shape {
         Shape::Sphere { radius, .. } => c.positive(&shape.key("sphere").key("radius"), *radius),
@@ -83,7 +83,7 @@ fn check_object(c: &mut Checker, path: &Path, object: &Object) {
                 c.error(&list, "the group is empty");
             }
             for (i, object) in objects.iter().enumerate() {
-                check_object(c, &list.index(i), object);
+                check_object(c, &list.index(i), object, placed);
             }
         }
         Shape::Scatter(scatter) => check_scatter(c, &shape.key("scatter"), scatter),
@@ -121,8 +121,9 @@ fn check_scatter(c: &mut Checker, path: &Path, scatter: &Scatter) {
     c.within(&path.key("align"), scatter.align, 0.0, 1.0);
 }
 
-/// Each step, and their product, must be invertible.
-fn transforms(c: &mut Checker, path: &Path, steps: &[Transform]) {
+/// Each step must be invertible, and their product, and that with `around`, which is returned.
+fn transforms(c: &mut Checker, object: &Path, steps: &[Transform], around: DMat3) -> DMat3 {
+    let path = object.key("transform");
     let mut product = DMat3::IDENTITY;
     let mut sound = true;
     for (i, step) in steps.iter().enumerate() {
@@ -131,36 +132,39 @@ fn transforms(c: &mut Checker, path: &Path, steps: &[Transform]) {
             Transform::Translate(_) => continue,
             Transform::Scale(Scale::Uniform(factor)) => DMat3::from_diagonal(DVec3::splat(*factor)),
             Transform::Scale(Scale::PerAxis(factors)) => DMat3::from_diagonal(DVec3::from(*factors)),
-            // a turn changes no volume; only its axis can be wrong
-            Transform::Rotate { axis, .. } => {
+            // only its axis can be wrong
+            Transform::Rotate { axis, deg } => {
                 c.direction(&here.key("rotate").key("axis"), *axis);
-                continue;
+                match DVec3::from(*axis).try_normalize() {
+                    Some(axis) if deg.is_finite() => DMat3::from_axis_angle(axis, deg.to_radians()),
+                    _ => continue,
+                }
             }
             Transform::Matrix(rows) => {
                 let row = |r: usize| DVec3::new(rows[r][0], rows[r][1], rows[r][2]);
                 DMat3::from_cols(row(0), row(1), row(2)).transpose()
             }
         };
-        if singular(&matrix) {
+        if flattens(&matrix) {
             sound = false;
-            let message = "this step flattens the object to nothing: a factor or the determinant is 0";
+            let message = if matrix.determinant() == 0.0 {
+                "this step flattens the object to nothing: a factor or the determinant is 0".to_owned()
+            } else {
+                format!("this step squeezes more than {MAX_SQUEEZE:e} times as much one way as another")
+            };
             c.error_about(&[&here, &here.key("scale"), &here.key("matrix")], message);
         }
         product = matrix * product;
     }
-    // the second is what placing asks for: a volume within the range of numbers
-    if sound && (singular(&product) || Placement::new(DAffine3::from_mat3(product)).is_none()) {
-        c.error(path, "together these steps flatten the object to nothing");
+    // What placing asks for, too: a volume within the range of numbers.
+    let places = |matrix: DMat3| Placement::new(DAffine3::from_mat3(matrix)).is_some();
+    let all = around * product;
+    if sound && !places(product) {
+        c.error(&path, "together these steps flatten the object to nothing, or take its volume out of the range of numbers");
+    } else if sound && places(around) && !places(all) {
+        let message = "together with the transforms of the groups around it these flatten the object to nothing, \
+                       or take its volume out of the range of numbers";
+        c.error_about(&[&path, object], message);
     }
-}
-
-/// |det M| < 1e-30·‖M‖³, computed on M/‖M‖ so that no scale overflows.
-fn singular(matrix: &DMat3) -> bool {
-    let largest = matrix.to_cols_array().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    if largest == 0.0 || !largest.is_finite() {
-        return true;
-    }
-    let unit = *matrix * (1.0 / largest);
-    let norm = unit.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
-    unit.determinant().abs() < 1e-30 * norm * norm * norm
+    all
 }

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::description::tree::Path;
-use crate::description::{Antialiasing, Camera};
+use crate::description::{Antialiasing, Camera, Image};
 use glam::DVec3;
 
 pub(super) fn check(c: &mut Checker) {
@@ -13,7 +13,7 @@ pub(super) fn check(c: &mut Checker) {
     }
     let image = &scene.image;
     for (key, size) in [("image.width", image.width), ("image.height", image.height)] {
-        c.within(&Path::of(key), size.into(), 1.0, 65536.0);
+        c.within(&Path::of(key), size.into(), 1.0, Image::MAX_SIDE.into());
     }
     c.within(&Path::of("image.exposure_ev"), image.exposure_ev, -64.0, 64.0);
     if !matches!(image.png_bits, 8 | 16) {

@@ -196,6 +196,8 @@ impl Lattice<'_> {
             let of = |at: u32, size: u32| (at / self.steps).min(size - 1);
             let place = Place { x: of(x, width), y: of(y, height), pass: self.pass };
             self.tally.health.non_finite(place);
+        } else {
+            self.tally.health.see(sample.radiance);
         }
         self.radiances.push(if sample.is_finite() { sample.radiance } else { Vec3::NAN });
         let wants = self.tracer.wants;

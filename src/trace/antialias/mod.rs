@@ -96,6 +96,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
             tally.health.non_finite(Place { x, y, pass });
             continue;
         }
+        tally.health.see(sample.radiance);
         tally.note(|recorder| recorder.weigh_last(1.0));
         value.set(sample, wants(tracer, probe));
         look_up(&mut value, tally, 1);
@@ -112,6 +113,7 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
 #[inline]
 fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut Tally) {
     if sample.is_finite() {
+        tally.health.see(sample.radiance);
         tally.note(|recorder| recorder.weigh_last(1.0));
         average.add(sample, 1.0);
     } else {
