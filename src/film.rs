@@ -6,7 +6,7 @@ mod kept;
 mod window;
 
 use crate::trace::{LUMINANCE, Layer, Layers, Measured, Probe, Resting, Tile};
-pub use accuracy::{Accuracy, BIAS_RATE, Part};
+pub use accuracy::{Accuracy, Part, Rates};
 use brightness::Brightness;
 pub use kept::Mismatch;
 pub use window::Window;
@@ -20,6 +20,8 @@ pub struct Film {
     /// The pixels that are there.
     pub window: Window,
     pub tiles: Vec<Tile>,
+    /// How photons' noise and bias fall with passes.
+    pub rates: Rates,
 }
 
 impl Film {
@@ -37,7 +39,7 @@ impl Film {
             .flat_map(|y| starts(x0, x1).map(move |x| (x, y)))
             .map(|(x, y)| Tile::new(x, y, tile.min(x1 - x), tile.min(y1 - y), layers))
             .collect();
-        Film { width, height, window, tiles }
+        Film { width, height, window, tiles, rates: Rates::default() }
     }
 
     /// Leaves out the tiles whose number does not fulfil a condition.
@@ -74,13 +76,13 @@ impl Film {
 
     /// How far it still is from the truth; `None` where that is unknown.
     pub fn accuracy(&self) -> Option<Accuracy> {
-        Accuracy::of(self.measured(), self.probes(), &self.brightness())
+        Accuracy::of(self.measured(), self.probes(), &self.brightness(), self.rates)
     }
 
     /// The same where passes in between are missing: what is known of how well distributed they are does not
     /// hold, and they count as independent.
     pub fn accuracy_of_any_passes(&self) -> Option<Accuracy> {
-        Accuracy::of_independent(self.measured(), self.probes(), &self.brightness())
+        Accuracy::of_independent(self.measured(), self.probes(), &self.brightness(), self.rates)
     }
 
     /// Passes of the pixels that have the most.

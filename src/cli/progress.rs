@@ -10,6 +10,7 @@ use super::machine::{self, DONE, State};
 use super::plan;
 use super::report::{self, Terminal};
 use super::signals;
+use super::summary::significant;
 use super::viewer::Viewer;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
@@ -116,6 +117,11 @@ impl Reporter {
         *self.err.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// `, error 2.1 %` while an image is traced; nothing where it is not known.
+    fn told_error(&self) -> String {
+        self.err().map_or(String::new(), |error| format!(", error {} %", significant(100.0 * error)))
+    }
+
     fn tell_machine(&self, state: &State) {
         match self.form {
             Form::Json => self.terminal.say(&state.json()),
@@ -134,9 +140,8 @@ impl Reporter {
         match self.form {
             Form::Plain => {
                 let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
-                let percent = (100.0 * stage.share()) as u32;
-                let rate = stage.rate();
-                self.terminal.say(&format!("{}: {percent} %, {rate}{left}", stage.name));
+                let (percent, rate, error) = (stage.percent(), stage.rate(), self.told_error());
+                self.terminal.say(&format!("{}: {percent}, {rate}{left}{error}", stage.name));
             }
             Form::Json | Form::OpenJd => self.tell_machine(&State {
                 place: self.place,
@@ -191,6 +196,7 @@ impl Progress for Reporter {
 
     fn advance(&self, done: u64) {
         self.breakage.step();
+        let error = self.told_error();
         let mut guard = self.stage();
         let Some(stage) = guard.as_mut() else { return };
         stage.done = stage.done.saturating_add(done);
@@ -198,7 +204,7 @@ impl Progress for Reporter {
         if let Some(bar) = &stage.bar {
             if silence >= SHORTEST_SILENCE {
                 let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
-                bar.set_message(format!("{:2} %, {}{left}", (100.0 * stage.share()) as u32, stage.rate()));
+                bar.set_message(format!("{}, {}{left}{error}", stage.percent(), stage.rate()));
                 bar.set_position(stage.done.min(stage.total.saturating_sub(1)));
                 stage.told.0 = Instant::now();
             }
@@ -221,6 +227,16 @@ impl Progress for Reporter {
         if let Some(stage) = self.stage().as_mut() {
             stage.done = stage.done.saturating_add(done);
             stage.earlier = stage.earlier.saturating_add(done);
+        }
+    }
+
+    fn expect(&self, total: u64) {
+        if let Some(stage) = self.stage().as_mut().filter(|stage| stage.total != total) {
+            stage.total = total;
+            stage.told.1 = stage.told.1.min(stage.share());
+            if let Some(bar) = &stage.bar {
+                bar.set_length(total.max(1));
+            }
         }
     }
 
@@ -268,8 +284,7 @@ impl Progress for Reporter {
             viewer.show(film, &self.terminal);
         }
         // what it takes to know is little beside as many passes again
-        let told = matches!(self.form, Form::Json | Form::OpenJd);
-        if told && passes >= 4 && passes.is_power_of_two() {
+        if self.form != Form::None && passes >= 4 && passes.is_power_of_two() {
             let error = film.accuracy().map(|accuracy| accuracy.error);
             *self.err.lock().unwrap_or_else(PoisonError::into_inner) = error;
         }
@@ -289,9 +304,16 @@ impl Progress for Reporter {
 }
 
 impl Stage {
-    /// How much of the stage is done, at most 0.99.
+    /// How much of the stage is done, at most 0.99; 0 where nobody knows.
     fn share(&self) -> f64 {
-        (self.done as f64 / self.total.max(1) as f64).min(0.99)
+        if self.total == 0 {
+            return 0.0;
+        }
+        (self.done as f64 / self.total as f64).min(0.99)
+    }
+
+    fn percent(&self) -> String {
+        if self.total == 0 { "begun".to_owned() } else { format!("{:2} %", (100.0 * self.share()) as u32) }
     }
 
     fn rate(&self) -> String {
@@ -299,8 +321,11 @@ impl Stage {
         format!("{} {}/s", short(per_second), self.unit)
     }
 
-    /// At the rate so far; unknown before anything is done.
+    /// At the rate so far; unknown before anything is done, and where the total is.
     fn seconds_left(&self) -> Option<f64> {
+        if self.total == 0 {
+            return None;
+        }
         let left = self.total.saturating_sub(self.done) as f64;
         let done = self.done_here();
         (done > 0).then(|| (self.began.elapsed().as_secs_f64() * left / done as f64 * 10.0).round() / 10.0)

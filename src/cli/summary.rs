@@ -110,8 +110,9 @@ fn accuracy(stats: &Stats, part: bool) -> Vec<String> {
     // Some pixels may have come to rest.
     let fewer = a.mean_passes < 0.99 * f64::from(a.passes);
     let mean = if fewer { format!(" (a pixel has {:.0} on average)", a.mean_passes) } else { String::new() };
+    let least = if stats.not_seen.is_empty() { "" } else { "at least " };
     let mut lines = vec![format!(
-        "accuracy: error {} (95 %: {} to {}) after {} passes{mean}; noise {}, bias {}",
+        "accuracy: error {least}{} (95 %: {} to {}) after {} passes{mean}; noise {}, bias {}",
         percent(a.error),
         significant(100.0 * low),
         percent(high),
@@ -159,7 +160,7 @@ pub fn expected(expected: &Expected) -> Vec<String> {
 }
 
 /// Two digits that count.
-fn significant(x: f64) -> String {
+pub fn significant(x: f64) -> String {
     let decimals = if x >= 9.95 || x <= 0.0 { 0.0 } else { 1.0 - x.log10().floor() };
     format!("{x:.*}", decimals.clamp(0.0, 6.0) as usize)
 }

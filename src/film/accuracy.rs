@@ -23,6 +23,7 @@ mod done;
 mod independent;
 mod jackknife;
 mod law;
+mod rates;
 mod sums;
 
 use super::brightness::Brightness;
@@ -31,6 +32,7 @@ use crate::trace::{Measured, Probe};
 use class::Classes;
 pub(super) use done::done;
 use jackknife::jackknife;
+pub use rates::Rates;
 use serde::Serialize;
 
 /// The relative RMS error of a picture, 1 for 100 %.
@@ -50,6 +52,9 @@ pub struct Accuracy {
     /// The squared noise of the pixels with the most passes, over what it would be if these were independent.
     #[serde(skip)]
     pub gain: f64,
+    /// p: the squared bias falls as passes^−p.
+    #[serde(skip)]
+    pub bias_rate: f64,
 }
 
 /// What one effect adds.
@@ -75,9 +80,6 @@ const BESIDE: f64 = 1.2;
 /// Student's t for 95 % and one less than the groups that probes are divided into.
 const STUDENT: f64 = 2.131;
 
-/// The squared bias of progressive passes falls as n^−2(1−α), α = 2/3 (Knaus & Zwicker 2011).
-pub const BIAS_RATE: f64 = 2.0 / 3.0;
-
 impl Accuracy {
     /// Of all pixels and the probes of a picture, in any order. `None` where
     /// fewer than two passes are there, or everything is black.
@@ -85,8 +87,9 @@ impl Accuracy {
         pixels: impl Iterator<Item = Measured>,
         probes: impl Iterator<Item = &'a Probe>,
         picture: &Brightness,
+        rates: Rates,
     ) -> Option<Accuracy> {
-        Accuracy::by(pixels, probes, picture, false)
+        Accuracy::by(pixels, probes, picture, rates, false)
     }
 
     /// The same of passes that are as good as independent.
@@ -94,14 +97,16 @@ impl Accuracy {
         pixels: impl Iterator<Item = Measured>,
         probes: impl Iterator<Item = &'a Probe>,
         picture: &Brightness,
+        rates: Rates,
     ) -> Option<Accuracy> {
-        Accuracy::by(pixels, probes, picture, true)
+        Accuracy::by(pixels, probes, picture, rates, true)
     }
 
     fn by<'a>(
         pixels: impl Iterator<Item = Measured>,
         probes: impl Iterator<Item = &'a Probe>,
         picture: &Brightness,
+        rates: Rates,
         independent: bool,
     ) -> Option<Accuracy> {
         let floor = FLOOR * picture.mean() * picture.mean();
@@ -109,7 +114,7 @@ impl Accuracy {
             return None;
         }
         let mut classes = Classes::of(pixels, probes, picture, floor)?;
-        classes.independent = independent;
+        (classes.rates, classes.independent) = (rates, independent);
         let squared = classes.squared(None);
         let e = squared.sqrt();
         let mut accuracy = classes.accuracy();
@@ -166,6 +171,6 @@ impl Accuracy {
         let sum: f64 = self.by_effect.iter().map(|part| part.noise * part.noise).sum();
         let scale = if sum > 0.0 { self.noise * self.noise / sum } else { 0.0 };
         let noise = |part: &Part| scale * part.noise * part.noise * libm::pow(times, -part.rate);
-        self.by_effect.iter().map(noise).sum::<f64>() + self.bias * self.bias * libm::pow(times, -BIAS_RATE)
+        self.by_effect.iter().map(noise).sum::<f64>() + self.bias * self.bias * libm::pow(times, -self.bias_rate)
     }
 }

@@ -4,7 +4,7 @@ use super::share::{By, Shards};
 use super::stop::StopState;
 use super::{Aov, Options, RenderError};
 use crate::description::Image as Settings;
-use crate::film::{Film, Window};
+use crate::film::{Film, Rates, Window};
 use crate::math::Health;
 use crate::output::partial::{self, PartialError, checksum};
 use crate::output::{Image, Provenance, atomic};
@@ -15,7 +15,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// Of the form of partial images; raised with every change of it.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// What all parts of one image have in common, beside its provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,7 @@ pub struct Form {
     pub assets: String,
     pub exposure_ev: f64,
     pub png_bits: u8,
+    pub rates: Rates,
 }
 
 /// What of the image is there.
@@ -80,6 +81,7 @@ impl Form {
         size: [u32; 2],
         assets: String,
         shown: (f64, u8),
+        rates: Rates,
     ) -> Form {
         let [width, height] = size;
         let (of, by) = match &options.shards {
@@ -100,6 +102,7 @@ impl Form {
             assets,
             exposure_ev: shown.0,
             png_bits: shown.1,
+            rates,
         }
     }
 
@@ -147,6 +150,7 @@ impl Form {
     /// An empty film of some of the shards.
     pub fn film(&self, shards: &[u32]) -> Film {
         let mut film = Film::of(self.width, self.height, self.window, self.tile, self.layers());
+        film.rates = self.rates;
         if self.by == By::Tiles {
             let shards = Shards { numbers: shards.to_vec(), of: self.of };
             film.keep_tiles(|tile| shards.has_tile(tile));

@@ -213,7 +213,7 @@ impl Options {
 
 /// How a render is followed. Called from many threads.
 pub trait Progress: Sync {
-    /// A stage of `total` units begins.
+    /// A stage of `total` units begins; 0 where nobody knows how many.
     fn start(&self, stage: &str, total: u64, unit: &str);
     /// `done` more units are finished.
     fn advance(&self, done: u64);
@@ -221,6 +221,8 @@ pub trait Progress: Sync {
     fn resume(&self, done: u64) {
         self.advance(done);
     }
+    /// The stage is likely to be one of so many units.
+    fn expect(&self, _: u64) {}
     /// The stage is over.
     fn finish(&self);
     /// What the render will take is known, and tracing begins.

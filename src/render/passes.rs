@@ -56,8 +56,14 @@ pub(super) fn trace(
     let mut tally = Tally::default();
     let mut photons = stages.stats(world);
     let tiles = film.tiles.len() as u64;
-    let left: u64 = steps.passes().min(planned.passes.into());
-    progress.start("trace", tiles * (u64::from(done) + left), "tiles");
+    let most: u64 = u64::from(done) + steps.passes();
+    // An error to be reached is told from the first passes on, and how many it takes only then.
+    let total = if plan.until.error.is_some() && plan.until.seconds.is_none() {
+        0
+    } else {
+        tiles * most.min(u64::from(done) + u64::from(planned.passes))
+    };
+    progress.start("trace", total, "tiles");
     progress.resume(tiles * u64::from(done));
     let mut maps = first;
     let mut of = ready.first_pass;
@@ -99,6 +105,9 @@ pub(super) fn trace(
         }
         if halted || progress.picture(&film, done).is_break() || stop.now(done, &film, progress) {
             break;
+        }
+        if let Some(likely) = stop.likely().filter(|_| total == 0) {
+            progress.expect(tiles * most.min(likely.into()));
         }
         if keeper.pauses() {
             let part = keeper.part(at, done, Counts::of(&tally), Some(&stop));

@@ -2,6 +2,7 @@
 
 use super::Halt;
 use crate::build::World;
+use crate::film::Rates;
 use crate::forecast::PhotonSeconds;
 use crate::index::{Bandwidth, Caustics, Kernel, PhotonMap, Reach, shrink};
 use crate::math::{Health, Rare};
@@ -95,6 +96,14 @@ impl PhotonStage {
         PhotonStage { emission, budget, reach, kernel, max_radius }
     }
 
+    /// At which its noise and its bias fall.
+    fn rates(&self) -> Rates {
+        match self.reach {
+            Rule::Shrinking { alpha, .. } => Rates::progressive(alpha),
+            Rule::Nearest { .. } => Rates::one_map(),
+        }
+    }
+
     /// Whether all passes gather the same photons.
     pub fn one_map(&self) -> bool {
         matches!(self.reach, Rule::Nearest { .. })
@@ -176,6 +185,18 @@ impl PassStages {
     /// What photons of caustics are sent from where.
     pub fn emission(&self) -> Option<&Emission> {
         self.caustic.as_ref().map(|stage| &stage.emission)
+    }
+
+    /// At which the photons' noise and bias fall; where paths bring indirect light, theirs is that of samples.
+    pub fn rates(&self) -> Rates {
+        let caustics = self.caustic.as_ref().map(PhotonStage::rates);
+        let indirect = self.indirect.as_ref().map(PhotonStage::rates);
+        let of = caustics.or(indirect).unwrap_or_default();
+        Rates {
+            caustics: of.caustics,
+            indirect: indirect.map_or(1.0, |rates| rates.indirect),
+            bias: of.bias.min(indirect.map_or(f64::INFINITY, |rates| rates.bias)),
+        }
     }
 
     /// Whether one set of maps serves all passes.

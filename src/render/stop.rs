@@ -23,6 +23,8 @@ pub(super) struct Stop {
     slowest_pass: Duration,
     check_at: u32,
     resting: Option<Resting>,
+    /// Passes after which the error is likely to be reached.
+    likely: Option<u32>,
 }
 
 /// Blocks may rest after this many passes, and twice as many, and so on: full parts of a sequence that is well
@@ -70,7 +72,7 @@ impl Stop {
         });
         let resting = plan.until.error.map(|_| Resting::none(film.width, film.height));
         let slowest_pass = Duration::ZERO;
-        Stop { until: plan.until, deadline, pass_began: now, slowest_pass, check_at: FEWEST, resting }
+        Stop { until: plan.until, deadline, pass_began: now, slowest_pass, check_at: FEWEST, resting, likely: None }
     }
 
     /// Whether tiles would come too late. The first pass is always traced.
@@ -81,6 +83,11 @@ impl Stop {
     /// Whether photons for another pass would be of use.
     pub fn allows_another(&self) -> bool {
         self.deadline.is_none_or(|deadline| Instant::now() + self.slowest_pass < deadline)
+    }
+
+    /// Passes in all after which the error is likely to be reached, once that is known.
+    pub fn likely(&self) -> Option<u32> {
+        self.likely
     }
 
     /// Pixels that need no more passes.
@@ -116,7 +123,23 @@ impl Stop {
             return false;
         }
         let likely = accuracy.passes_for(target).ceil().min(f64::from(u32::MAX / 4)) as u32;
+        self.likely = Some(likely.max(passes + 1));
         self.check_at = likely.clamp(passes + passes.div_ceil(2), 4 * passes);
         false
     }
+}
+
+/// How much later than its time a render may end: seconds, and a share.
+const LATE: (f64, f64) = (0.5, 0.03);
+
+/// A warning where the first pass alone took longer than there was.
+pub(super) fn exceeded(plan: &Plan, options: &Options, passes: u32) -> Option<String> {
+    let (limit, began) = (plan.until.seconds?, options.began?);
+    let taken = began.elapsed().as_secs_f64();
+    (passes <= 1 && taken > limit + LATE.0.max(LATE.1 * limit)).then(|| {
+        format!(
+            "the first pass, of which no tile may be missing, ended after {taken:.1} s: more than the {limit} s that were \
+             given; a smaller image or fewer photons (photons.count) take less"
+        )
+    })
 }

@@ -1,7 +1,7 @@
 //! The estimate alone, on films whose passes are made up.
 
 use super::Dice;
-use terrarium::film::{Accuracy, Film};
+use terrarium::film::{Accuracy, Film, Rates};
 use terrarium::math::DVec3;
 use terrarium::trace::{Layers, PixelValue, Probes};
 
@@ -157,4 +157,22 @@ fn the_price_of_half_the_error_is_four_times_the_passes() {
 fn one_pass_and_black_films_are_unknown() {
     assert_eq!(film(1, |_, _| grey(1.0)).accuracy(), None);
     assert_eq!(film(4, |_, _| grey(0.0)).accuracy(), None);
+}
+
+/// Photons' noise and bias fall as the plan says, and what halves the error follows from that.
+#[test]
+fn the_price_of_half_the_error_follows_the_radius() {
+    let mut dice = Dice(9);
+    let mut film = film(32, |_, _| {
+        let caustic = DVec3::splat(1.0 + 0.3 * dice.normal());
+        PixelValue { caustic, ..grey(caustic.x) }
+    });
+    for (alpha, factor) in [(2.0 / 3.0, 8.0), (0.9, 2f64.powf(2.0 / 0.9))] {
+        film.rates = Rates::progressive(alpha);
+        let found = accuracy(&film);
+        let part = found.by_effect.iter().find(|part| part.effect == "caustics").expect("caustics");
+        assert!((part.rate - alpha).abs() < 1e-12 && part.share > 0.99, "{found:?}");
+        let passes = found.passes_for(0.5 * found.error) / 32.0;
+        assert!((passes / factor - 1.0).abs() < 0.02, "{alpha}: {passes}");
+    }
 }

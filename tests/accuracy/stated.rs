@@ -102,6 +102,64 @@ fn rendering_for_a_time_keeps_to_it() {
     assert!((0.5..3.0).contains(&began.elapsed().as_secs_f64()), "{:?}", began.elapsed());
 }
 
+/// What a render says of its length: totals, as they were told, with the tiles that were done by then.
+#[derive(Default)]
+struct Heard {
+    done: std::sync::atomic::AtomicU64,
+    totals: std::sync::Mutex<Vec<(u64, u64)>>,
+}
+
+impl Heard {
+    fn hear(&self, total: u64) {
+        let done = self.done.load(std::sync::atomic::Ordering::Relaxed);
+        self.totals.lock().expect("a list").push((done, total));
+    }
+}
+
+impl render::Progress for Heard {
+    fn start(&self, stage: &str, total: u64, _: &str) {
+        if stage == "trace" {
+            self.done.store(0, std::sync::atomic::Ordering::Relaxed);
+            self.hear(total);
+        }
+    }
+    fn advance(&self, done: u64) {
+        self.done.fetch_add(done, std::sync::atomic::Ordering::Relaxed);
+    }
+    fn expect(&self, total: u64) {
+        self.hear(total);
+    }
+    fn finish(&self) {}
+    fn note(&self, _: &str) {}
+}
+
+/// How long a render to an error lasts is unknown at first, told from the first look on, and never less than what is
+/// done.
+#[test]
+fn the_length_of_a_render_to_an_error_is_told_once_it_is_known() {
+    let loaded = focused(GLASS).load();
+    let until = Until { error: Some(0.05), seconds: None };
+    let heard = Heard::default();
+    render::render(&loaded, &Options { until, ..Options::default() }, &heard).expect("rendered");
+    let all = heard.done.into_inner();
+    let totals = heard.totals.into_inner().expect("a list");
+    assert_eq!(totals[0], (0, 0));
+    assert!(totals.len() > 2 && totals[1..].iter().all(|(done, total)| total > done), "{totals:?}");
+    let (_, last) = totals[totals.len() - 1];
+    assert!((0.5..2.0).contains(&(last as f64 / all as f64)), "{totals:?} {all}");
+}
+
+/// A first pass that alone takes more than the time there was is finished, and said to be late.
+#[test]
+fn a_time_that_no_pass_fits_in_is_told() {
+    let loaded = focused(GLASS).load();
+    let began = std::time::Instant::now().checked_sub(std::time::Duration::from_secs(5)).expect("a past");
+    let until = Until { error: None, seconds: Some(1.0) };
+    let found = rendered(&loaded, &Options { until, began: Some(began), ..Options::default() });
+    assert_eq!(found.stats.passes, 1);
+    assert!(found.warnings.iter().any(|w| w.contains("more than the 1 s that were given")), "{:?}", found.warnings);
+}
+
 /// What could never tell its error is not rendered to one.
 #[test]
 fn errors_that_no_pass_shows_are_refused() {

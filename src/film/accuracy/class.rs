@@ -3,7 +3,7 @@
 use super::independent::{Independent, relative};
 use super::jackknife::jackknife;
 use super::sums::{Row, Sums};
-use super::{Accuracy, Part};
+use super::{Accuracy, Part, Rates};
 use crate::film::brightness::Brightness;
 use crate::math::random::{combine, mix};
 use crate::trace::{Look, Measured, Probe};
@@ -33,6 +33,7 @@ pub(super) struct Classes {
     looks: [Look; 3],
     /// Whether noise is that of independent passes, whatever the probes tell.
     pub independent: bool,
+    pub rates: Rates,
 }
 
 impl Classes {
@@ -63,7 +64,8 @@ impl Classes {
         if probes.is_empty() || pixels <= 0.0 {
             return None;
         }
-        let mut classes = Classes { classes, pixels, main, looks: [Look::Wide; 3], independent: false };
+        let (looks, rates) = ([Look::Wide; 3], Rates::default());
+        let mut classes = Classes { classes, pixels, main, looks, independent: false, rates };
         classes.looks = std::array::from_fn(|which| classes.look(which));
         Some(classes)
     }
@@ -139,7 +141,7 @@ impl Classes {
             mean_passes += class.independent.count as f64 / self.pixels * f64::from(passes);
             // Probes tell how it is shared, all pixels how much it is.
             let told = if class.probes() > 0.0 { passes } else { self.main };
-            let shares = self.classes[&told].sums(None).rows(self.classes[&told].part, told);
+            let shares = self.classes[&told].sums(None).rows(self.classes[&told].part, told, self.rates);
             let probed: f64 = shares.iter().map(|row| row.noise).sum();
             let scale = if probed > 0.0 { self.noise(passes, class, None) / probed } else { 0.0 };
             for share in shares {
@@ -182,6 +184,7 @@ impl Classes {
             bias: self.bias(2, None).sqrt(),
             by_effect: all.iter().map(part).collect(),
             gain: self.classes.iter().next_back().map_or(1.0, |(n, class)| self.gain(*n, class, None)),
+            bias_rate: self.rates.bias,
         }
     }
 }

@@ -1,13 +1,10 @@
 //! What probes tell of the noise and the bias, and of which effects bring them.
 
 use super::law::Fits;
-use super::weight;
+use super::{Rates, weight};
 use crate::film::brightness::Brightness;
 use crate::math::DVec3;
 use crate::trace::{Kind, Look, Probe};
-
-/// The rate of photons' noise while their radius shrinks, α = 2/3 (Knaus & Zwicker 2011).
-const PHOTON_RATE: f64 = 2.0 / 3.0;
 
 /// Sums over probes of squares, relative and averaged over channels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,7 +66,7 @@ impl Sums {
     fn noise(&self, kind: Kind, part: u32, passes: u32) -> Noise {
         let s2 = self.variance[kind as usize] / self.count.max(1.0);
         if kind != Kind::Rest {
-            return Noise { squared: s2 / f64::from(passes), rate: PHOTON_RATE, doubt: 0.0 };
+            return Noise { squared: s2 / f64::from(passes), rate: 1.0, doubt: 0.0 };
         }
         if s2 <= 0.0 {
             return Noise { squared: 0.0, rate: 1.0, doubt: 0.0 };
@@ -99,8 +96,8 @@ impl Sums {
         if independent > 0.0 { noise / independent } else { 1.0 }
     }
 
-    /// The squared noise of the probes by effect.
-    pub fn rows(&self, part: u32, passes: u32) -> [Row; 4] {
+    /// The squared noise of the probes by effect; that of photons falls at these rates.
+    pub fn rows(&self, part: u32, passes: u32, rates: Rates) -> [Row; 4] {
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
         let [place, all] = self.place;
         let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
@@ -111,8 +108,8 @@ impl Sums {
         [
             row("edges", Kind::Rest, edges),
             row("direct", Kind::Rest, 1.0 - edges),
-            row("caustics", Kind::Caustic, 1.0),
-            row("indirect", Kind::Indirect, 1.0),
+            Row { rate: rates.caustics, ..row("caustics", Kind::Caustic, 1.0) },
+            Row { rate: rates.indirect, ..row("indirect", Kind::Indirect, 1.0) },
         ]
     }
 }
@@ -120,7 +117,7 @@ impl Sums {
 /// The noise of one kind of light.
 struct Noise {
     squared: f64,
-    /// At which it will fall.
+    /// At which it will fall; of photons [`Rates`] say it.
     rate: f64,
     /// The logarithm of the factor by which its root may be off.
     doubt: f64,
