@@ -1,13 +1,14 @@
 """Whether renders tell the truth about their error: `make honesty`.
 
 Five scenes, each at several numbers of passes and with many seeds: the stated error and its interval beside
-the true error, against a reference of many more passes and another seed (made once, kept in target/honesty).
+the true error, against a reference of many more passes and another seed (made once, kept in target/honesty), whose own noise is taken off.
 Then renders that end at an error, and at a time. Ends with 1 where a goal is missed.
 
 SEEDS=20, SIDE=128 (pixels of the longer side), REFERENCE=4000 (passes), ONLY=scene name.
 """
 
 import json
+import math
 import os
 import statistics
 import subprocess
@@ -47,19 +48,25 @@ def render(scene, image, *more):
     return json.loads(done.stdout)
 
 
-def error(image, reference):
-    """The relative RMS error of an image."""
+def error(image, truth):
+    """The relative RMS error of an image, without that of the reference's own noise."""
+    reference, noise = truth
     found = json.loads(run("diff", image, reference, "--json", "--fast").stdout)
     picture = next(layer for layer in found["layers"] if layer["name"] == "")
-    return picture["colour"]["relative_rms"]
+    return math.sqrt(max(picture["colour"]["relative_rms"] ** 2 - noise ** 2, 0.0))
 
 
 def reference(scene, size):
+    """An image, and the noise that it states of itself."""
     name = os.path.basename(scene).split(".")[0]
     image = os.path.join(FOLDER, "%s-%d-%d.exr" % (name, SIDE, REFERENCE))
-    if not os.path.exists(image):
-        render(scene, image, *size, "--passes", str(REFERENCE), "--seed", "1000")
-    return image
+    kept = image + ".json"
+    if not os.path.exists(image) or not os.path.exists(kept):
+        stated = render(scene, image, *size, "--passes", str(REFERENCE), "--seed", "1000")["accuracy"]
+        with open(kept, "w", encoding="utf-8") as out:
+            json.dump(stated, out)
+    with open(kept, encoding="utf-8") as stated:
+        return image, json.load(stated)["noise"]
 
 
 def main():

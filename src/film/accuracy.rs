@@ -77,6 +77,10 @@ const FLOOR: f64 = 0.31;
 /// The truth may lie as far from the middle of the laws as this times half of what they differ.
 const BESIDE: f64 = 1.2;
 
+/// What is added for light that chance finds, photons' and that of many bounces, by its share of the error: without it
+/// the intervals of a caustic after 64 passes held the truth in 8 of 12 renders, with it in 11.
+const RARE: f64 = 0.2;
+
 /// Student's t for 95 % and one less than the groups that probes are divided into.
 const STUDENT: f64 = 2.131;
 
@@ -134,9 +138,12 @@ impl Accuracy {
             8..16 => 0.3,
             _ => 0.12,
         };
+        // Bright light that is found seldom is in the truth before it is in what was seen.
+        let found = |part: &&Part| matches!(part.effect, "caustics" | "indirect");
+        let rare = RARE * accuracy.by_effect.iter().filter(found).map(|part| part.share).sum::<f64>();
         // What lies beside all laws that noise may follow.
         let doubt = BESIDE * classes.doubt();
-        let half = (chance * chance + groups * groups + model * model + doubt * doubt).sqrt();
+        let half = (chance * chance + groups * groups + model * model + rare * rare + doubt * doubt).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
         Some(accuracy)
     }
