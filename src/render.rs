@@ -98,7 +98,8 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
     let camera = &ready.world.camera;
     let assets = keeper::assets(options, &ready.files)?;
     let shown = (loaded.scene.image.exposure_ev, loaded.scene.image.png_bits);
-    let form = Form::new(&ready.plan, options, [camera.width, camera.height], assets, shown, ready.stages.rates());
+    let form =
+        Form::new(&ready.plan, options, [camera.width, camera.height], assets, shown, ready.stages.rates());
     let mut keeper = Keeper::new(options, &provenance, form);
     let traced = passes::trace(&ready, first, &mut keeper, options, &planned, progress)?;
     clock.lap("trace");

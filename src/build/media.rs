@@ -113,6 +113,16 @@ impl World {
         set
     }
 
+    /// Whether the bounds of a transmissive object come within `distance` of a point.
+    pub fn has_medium_near(&self, p: DVec3, distance: f64) -> bool {
+        self.media.iter().any(|medium| {
+            let instance = &self.instances[medium.instance as usize];
+            let bounds = World::placed_bounds(self.geometry(medium.instance), &instance.placement);
+            let (min, max) = (bounds.min.as_dvec3() - distance, bounds.max.as_dvec3() + distance);
+            p.cmpge(min).all() && p.cmple(max).all()
+        })
+    }
+
     fn leaves(&self, instance: u32, p: DVec3, dir: DVec3) -> bool {
         let ray = Ray { origin: p, dir };
         self.nearest_of(instance, &ray, f64::INFINITY)

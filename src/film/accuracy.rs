@@ -178,6 +178,7 @@ impl Accuracy {
         let sum: f64 = self.by_effect.iter().map(|part| part.noise * part.noise).sum();
         let scale = if sum > 0.0 { self.noise * self.noise / sum } else { 0.0 };
         let noise = |part: &Part| scale * part.noise * part.noise * libm::pow(times, -part.rate);
-        self.by_effect.iter().map(noise).sum::<f64>() + self.bias * self.bias * libm::pow(times, -self.bias_rate)
+        self.by_effect.iter().map(noise).sum::<f64>()
+            + self.bias * self.bias * libm::pow(times, -self.bias_rate)
     }
 }

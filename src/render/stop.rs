@@ -72,7 +72,15 @@ impl Stop {
         });
         let resting = plan.until.error.map(|_| Resting::none(film.width, film.height));
         let slowest_pass = Duration::ZERO;
-        Stop { until: plan.until, deadline, pass_began: now, slowest_pass, check_at: FEWEST, resting, likely: None }
+        Stop {
+            until: plan.until,
+            deadline,
+            pass_began: now,
+            slowest_pass,
+            check_at: FEWEST,
+            resting,
+            likely: None,
+        }
     }
 
     /// Whether tiles would come too late. The first pass is always traced.

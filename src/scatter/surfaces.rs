@@ -20,6 +20,9 @@ struct Point {
     texture: TexturePoint,
 }
 
+/// Errors of a point by which light starts off its lamp: its own, and as much of a surface that is known no better.
+const FLUSH: f64 = 4.0;
+
 impl Source {
     /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω, or that of
     /// the window from which targets can be met.
@@ -150,7 +153,8 @@ impl Source {
         if power == DVec3::ZERO {
             return None;
         }
-        let p_error = robust::placed_error(placement, point.p, point.p_error);
+        // Beyond what may coincide with the lamp's surface, glass or a ceiling: where shadow rays end as well.
+        let p_error = FLUSH * robust::placed_error(placement, point.p, point.p_error);
         let ng = placement.unit_normal(point.ng);
         Some(self.start(world, Ray::leaving(placement.point(point.p), p_error, ng, dir), power))
     }

@@ -107,7 +107,8 @@ impl Tracer<'_> {
             // The emitter is convex: what lies before its first surface is not itself.
             Arrival::Shape { p, instance } => {
                 let ray = Ray { origin, dir: p - origin };
-                !self.world.occluded(&ray, 1.0, Some(instance))
+                let flush = self.world.flush(&ray, p, instance);
+                !self.world.occluded(&ray, 1.0 - flush, Some(instance))
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };

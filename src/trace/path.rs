@@ -82,13 +82,16 @@ const LENS: u64 = 6;
 pub struct Scratch {
     branches: Vec<Branch>,
     sample: Sample,
-    /// The media around the eye.
-    start: MediaSet,
+    /// The media around the eye; `None` where a lens may lie across the border of one.
+    start: Option<MediaSet>,
 }
 
 impl Scratch {
     pub fn new(tracer: &Tracer) -> Scratch {
-        let start = tracer.world.media_at(tracer.world.camera.eye);
+        let world = tracer.world;
+        let camera = &world.camera;
+        let across = camera.lens_radius > 0.0 && world.has_medium_near(camera.eye, camera.lens_radius);
+        let start = (!across).then(|| world.media_at(camera.eye));
         Scratch { branches: Vec::new(), sample: Sample::default(), start }
     }
 }
@@ -116,10 +119,11 @@ impl Tracer<'_> {
         tally.note(|recorder| recorder.begin(film));
         scratch.sample = Sample::default();
         scratch.branches.clear();
+        let ray = camera.ray(film, lens);
         let mut branch = Branch {
-            ray: camera.ray(film, lens),
+            ray,
             throughput: Vec3::ONE,
-            media: scratch.start,
+            media: scratch.start.unwrap_or_else(|| self.world.media_at(ray.origin)),
             cone: Cone { width: 0.0, spread: camera.pixel_spread() },
             depth: 0,
             bounces: 0,

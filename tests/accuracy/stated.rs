@@ -157,7 +157,11 @@ fn a_time_that_no_pass_fits_in_is_told() {
     let until = Until { error: None, seconds: Some(1.0) };
     let found = rendered(&loaded, &Options { until, began: Some(began), ..Options::default() });
     assert_eq!(found.stats.passes, 1);
-    assert!(found.warnings.iter().any(|w| w.contains("more than the 1 s that were given")), "{:?}", found.warnings);
+    assert!(
+        found.warnings.iter().any(|w| w.contains("more than the 1 s that were given")),
+        "{:?}",
+        found.warnings
+    );
 }
 
 /// What could never tell its error is not rendered to one.

@@ -6,7 +6,7 @@ use super::seen;
 use crate::photons::lab::{lab, lab_in, on_patch, power};
 use crate::render::caustics::lab::{estimate, parts};
 use crate::render::caustics::scales;
-use crate::render::meshes::{folder, write_exr};
+use crate::render::meshes::{cube, folder, write_exr};
 use crate::render::shot::{agreement, shot};
 use crate::render::stability::{assets, render_everything};
 use std::f64::consts::PI;
@@ -35,12 +35,16 @@ const LIGHTS: [(&str, &str); 9] = [
 ];
 
 /// Emitting objects: material, object.
-const OBJECTS: [(&str, &str); 3] = [
+const OBJECTS: [(&str, &str); 4] = [
     (
         "ellipsoid",
         r#"(shape: sphere(radius: 1), material: "lamp", transform: [scale((0.3, 0.9, 0.5)), translate((0, 2, 0))])"#,
     ),
     ("box", r#"(shape: box(size: (0.4, 0.3, 0.5), center: (0.2, 2, 0.1)), material: "lamp")"#),
+    (
+        "mesh",
+        r#"(shape: mesh(path: "lamp.obj", smooth: false), material: "lamp", transform: [translate((0.1, 2, 0))])"#,
+    ),
     (
         "cylinder",
         r#"(shape: cylinder(radius: 0.3, height: 0.5), material: "lamp", transform: [translate((0, 1.8, 0.4))])"#,
@@ -74,6 +78,7 @@ fn h35_photons_agree_with_shadow_rays() {
         write_exr(&dir.path().join("sky.exr"), 16, 8, |x, y| {
             if (x, y) == (5, 1) { [60.0; 3] } else { [0.2 + ((3 * x + 5 * y) % 7) as f32; 3] }
         });
+        cube().scaled(0.3).write(&dir.path().join("lamp.obj"));
         let objects = OBJECTS.map(|(name, object)| (name, String::new(), format!(", {object}")));
         let lights = LIGHTS.map(|(name, light)| (name, light.to_owned(), String::new()));
         for (name, light, object) in lights.into_iter().chain(objects) {

@@ -173,6 +173,7 @@ fn both_ways(row: &mut Record, folder: &Path) {
         let paths = bent::by_paths(folder, more, materials, &caster);
         let what = format!("irradiance by photons under {name}: that by paths (3σ)");
         row.is(&what, photons, paths, 3.0 * error + 2e-3 * paths);
+        row.at_most("σ of that as a share", error / paths, 0.03);
     }
 }
 

@@ -44,6 +44,7 @@ fn h26_touching_area_lights() {
         form_factor(row);
         any_height(row);
         touching(row);
+        flush(row);
         // As rendered, a floor of which is seen what lies before the lamp.
         let (mut most, mut least) = (0.0f64, f64::INFINITY);
         for height in [1e-2, 6e-3] {
@@ -92,6 +93,76 @@ fn any_height(row: &mut Record) {
     }
     row.at_most("a square at heights from 1e-12 to 1e6: off its closed form, as a share", off, 2e-3);
     row.is("at height 1", sampled(&quad, DVec3::Y, DVec3::NEG_Y, 65_536), 0.752_274_7, 2e-4);
+}
+
+/// A lamp set in a ceiling, on glass, or in a glass of its own size gives as much light as without them (with photons
+/// where it is glass, of an index that reflects nothing to speak of).
+fn flush(row: &mut Record) {
+    let scene = |lamp: &str, objects: &str| {
+        focused(format!(
+            r#"(camera: (eye: (0, 0.9, 0), target: (0, 0, 0), up: (0, 0, -1), fov_deg: 60), image: (width: 12, height: 12),
+            photons: progressive(count: 20000), materials: {{ "white": (diffuse: 0.8), "black": (), "thin": (transmission: 1, ior: 1.0001), "lamp": (emission: 3) }},
+            lights: {{ {lamp} }}, objects: [(shape: quad(size: (6, 6)), material: "white"){objects}])"#
+        ))
+        .passes(sized(4, 64))
+        .render()
+    };
+    let (mut opaque, mut opaque_pixel, mut clear) = (0.0f64, 0.0f64, 0.0f64);
+    for y in [1.0, 1.9, 2.0, 2.4, 3.3] {
+        let quad = format!(
+            r#""lamp": quad(corner: (-0.4, {y}, -0.4), edge_u: (0.8, 0, 0), edge_v: (0, 0, 0.8), radiance: 10)"#
+        );
+        let disk =
+            format!(r#""lamp": disk(center: (0, {y}, 0), normal: (0, -1, 0), radius: 0.4, radiance: 10)"#);
+        let ball = format!(r#""lamp": sphere(center: (0, {y}, 0), radius: 0.4, radiance: 10)"#);
+        let glow = format!(
+            r#", (shape: box(size: (0.6, 0.5, 0.4)), material: "lamp", transform: [translate((0, {y}, 0))])"#
+        );
+        let ceiling = format!(
+            r#", (shape: quad(size: (6, 6)), material: "black", transform: [translate((0, {y}, 0))])"#
+        );
+        for lamp in [&quad, &disk] {
+            let (with, none) = (scene(lamp, &ceiling), scene(lamp, ""));
+            opaque = opaque.max((with.mean() / none.mean() - 1.0).abs());
+            let off =
+                with.grey().iter().zip(none.grey()).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+            opaque_pixel = opaque_pixel.max(off);
+        }
+        let slab = format!(
+            r#", (shape: box(size: (3, 0.2, 3)), material: "thin", transform: [translate((0, {}, 0))])"#,
+            y + 0.1
+        );
+        let below = format!(
+            r#", (shape: box(size: (3, 0.2, 3)), material: "thin", transform: [translate((0, {}, 0))])"#,
+            y - 0.1
+        );
+        let around = format!(r#", (shape: sphere(radius: 0.4, center: (0, {y}, 0)), material: "thin")"#);
+        let case = format!(
+            r#"{glow}, (shape: box(size: (0.6, 0.5, 0.4)), material: "thin", transform: [translate((0, {y}, 0))])"#
+        );
+        for (lamp, plain, object) in [
+            (&quad[..], "", slab.clone()),
+            (&quad, "", below.clone()),
+            (&disk, "", slab),
+            (&disk, "", below),
+            (&ball, "", around),
+            ("", &glow, case),
+        ] {
+            let off = (scene(lamp, &object).mean() / scene(lamp, plain).mean() - 1.0).abs();
+            clear = clear.max(off);
+        }
+    }
+    row.at_most(
+        "quad and disk in the plane of a black ceiling, 1 to 3.3 m up: the floor's mean off that without",
+        opaque,
+        1e-5,
+    );
+    row.at_most("its worst pixel", opaque_pixel, 1e-4);
+    row.at_most(
+        "quad, disk, sphere and box flush with clear glass, above, below, around: the same",
+        clear,
+        sized(0.03, 0.01),
+    );
 }
 
 fn touching(row: &mut Record) {

@@ -236,7 +236,7 @@ fn h11_missing_normals() {
         );
         let pixels = flat.grey().len() as u64;
         let same = (agreement(&zero, &flat, 1e-5) * pixels as f64).round() as u64;
-        row.share("pixels that are those of flat triangles, to 1e-5", same, pixels, 0.995);
+        row.all("pixels that are those of flat triangles, to 1e-5", same, pixels);
         some_missing(row);
     });
 }
@@ -279,6 +279,6 @@ fn some_missing(row: &mut Record) {
         let picture = with(Some(none));
         let same = (agreement(&picture, &flat, 1e-4) * pixels as f64).round() as u64;
         let what = format!("some normals of a smooth ball are {what}: pixels as with their triangles' own");
-        row.share(&what, if picture.is_sound() { same } else { 0 }, pixels, 0.995);
+        row.all(&what, if picture.is_sound() { same } else { 0 }, pixels);
     }
 }

@@ -128,6 +128,7 @@ fn h18_eye_inside_glass() {
                 row.at_most("its worst pixel off that", unevenness(&picture, expected).1, sized(0.3, 0.1));
             };
         prove(row, "eye-in-glass");
+        lens(row, passes);
         let ball = r#"(shape: sphere(), material: "glass")"#;
         let camera = "(eye: (0, 0, 0), target: (0, 0.2, 1), fov_deg: 60)";
         off(row, "a sky of 1 seen from outside through a ball of glass", AROUND, GLASS, ball, 1.0);
@@ -138,6 +139,24 @@ fn h18_eye_inside_glass() {
         let beside = "(eye: (0.1, 0.6, 0), target: (0.2, 2, 0), fov_deg: 20)";
         off(row, "from the glass beside the bubble", beside, materials, bubble, 2.25);
     });
+}
+
+/// A lens half in glass: rays that begin inside see a sky of 2.25, the others one of 1.
+fn lens(row: &mut Record, passes: u32) {
+    let cube = r#"(shape: box(size: (4, 1, 4)), material: "glass")"#;
+    let mean = |y: f64| {
+        let camera =
+            format!("(eye: (0, {y}, 0), target: (0, {y}, -1), fov_deg: 4, aperture_m: 0.2, focus_m: 1)");
+        furnace(Path::new(""), &camera, GLASS, cube, passes).mean()
+    };
+    row.is(
+        "a lens half in glass, n = 1.5, in a sky of 1: half of 2.25 and half of 1",
+        mean(0.5),
+        1.625,
+        0.02,
+    );
+    row.is("one that is just outside", mean(0.6000001), 1.0, 3e-3);
+    row.is("one that is just inside", mean(0.3999999), 2.25, 3e-3 * 2.25);
 }
 
 #[test]

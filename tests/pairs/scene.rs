@@ -14,7 +14,7 @@ pub const FACTORS: [(&str, usize); 6] = [
 ];
 
 /// Those with an extent shine with a radiance of 1.
-const LIGHTS: [&str; 10] = [
+const LIGHTS: [&str; 11] = [
     "point(position: (1.5, 3, 2), intensity: 9)",
     "point(position: (1.5, 3, 2), intensity: 9, falloff: (1, 0.2, 0.5))",
     "spot(position: (1.5, 3, 2), target: (0, 0.5, 0), intensity: 9)",
@@ -24,8 +24,9 @@ const LIGHTS: [&str; 10] = [
     "disk(center: (1, 3, 1), normal: (-0.2, -1, -0.2), radius: 1, radiance: 1, two_sided: true)",
     "environment(map: gradient(zenith: 1, horizon: 0.5, nadir: 0.1))",
     r#"environment(map: image(path: "sky.exr"))"#,
-    // An object that emits.
+    // An object that emits, and a mesh that does.
     "",
+    "mesh",
 ];
 
 /// Of these many lights from the start, no radiance is a bound of the picture's.
@@ -45,7 +46,7 @@ const MATERIALS: [&str; 10] = [
     "transmission: 1, ior: 1",
 ];
 
-const SHAPES: [&str; 10] = [
+const SHAPES: [&str; 11] = [
     "sphere(radius: 0.7, center: (0, 0.75, 0))",
     "box(size: (1, 1.2, 0.9), center: (0, 0.65, 0))",
     "cone(radius: 0.7, height: 1.3)",
@@ -56,6 +57,8 @@ const SHAPES: [&str; 10] = [
     "polyhedron(kind: icosahedron, radius: 0.8)",
     r#"mesh(path: "ball.obj", smooth: true)"#,
     "group(objects: [(shape: sphere(radius: 0.5), material: \"m\", transform: [translate((-0.5, 0.6, 0))]), (shape: box(size: (0.5, 0.5, 0.5)), material: \"m\", transform: [translate((0.5, 0.5, 0.3))])])",
+    // Half under water.
+    r#"group(objects: [(shape: box(size: (1.2, 0.8, 1.2)), material: "water", transform: [translate((0, 0.4, 0))]), (shape: sphere(radius: 0.4, center: (0.2, 0.7, 0)), material: "m")])"#,
 ];
 
 const ANTIALIASING: [&str; 4] = ["none", "grid(2)", "adaptive(threshold: 0.1, depth: 2)", "progressive"];
@@ -86,10 +89,13 @@ pub fn has_photons([.., photons]: [usize; 6]) -> bool {
 pub fn text([light, material, shape, antialiasing, effect, photons]: [usize; 6]) -> String {
     let lens = if effect == LENS { ", aperture_m: 0.1" } else { "" };
     let lamp = match LIGHTS[light] {
-        "" => String::new(),
+        "" | "mesh" => String::new(),
         lamp => format!(r#""lamp": {lamp}"#),
     };
     let lamp_object = match LIGHTS[light] {
+        "mesh" => {
+            r#", (name: "lamp", shape: mesh(path: "ball.obj", smooth: false), material: "glow", transform: [translate((1.5, 3, 2))])"#
+        }
         "" => r#", (name: "lamp", shape: sphere(radius: 0.6, center: (1.5, 3, 2)), material: "glow")"#,
         _ => "",
     };
@@ -105,7 +111,7 @@ pub fn text([light, material, shape, antialiasing, effect, photons]: [usize; 6])
         r#"(camera: (eye: (0.5, 1.8, 4.5), target: (0, 0.6, 0), fov_deg: 35{lens}), image: (width: 16, height: 12),
         antialiasing: {}, {} photons: {},
         textures: {{ "tiles": checker(a: 0.2, b: 0.8, squares: (4, 4)), "waves": noise(a: 0.4, b: 0.6, size_m: 0.3) }},
-        materials: {{ "floor": (diffuse: 0.6), "glow": (emission: 1), "m": ({}) }},
+        materials: {{ "floor": (diffuse: 0.6), "glow": (emission: 1), "water": (transmission: 1, ior: 1.333), "m": ({}) }},
         lights: {{ {lamp} }},
         objects: [(name: "floor", shape: quad(size: (8, 8)), material: "floor"),
             (name: "thing", shape: {}{material_of}, transform: [{place}]){lamp_object}])"#,
