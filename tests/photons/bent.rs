@@ -12,6 +12,7 @@ use terrarium::scatter::{Aim, Store};
 
 const SKY: &str = r#""sky": environment(map: gradient(zenith: 4, horizon: 1, nadir: 0.1))"#;
 const HALF: f64 = 0.3;
+const PASSES: u32 = 24;
 
 /// It hides what is below it, for light as for eyes.
 fn patch(material: &str) -> String {
@@ -19,9 +20,15 @@ fn patch(material: &str) -> String {
 }
 
 /// The irradiance of the patch at the origin that photons find behind casters.
-pub(crate) fn by_photons(folder: &Path, more: &str, materials: &str, caster: &str) -> (f64, f64) {
+pub(crate) fn by_photons(
+    folder: &Path,
+    more: &str,
+    materials: &str,
+    caster: &str,
+    passes: u32,
+) -> (f64, f64) {
     let scene = lab_in(folder, more, materials, SKY, &format!("{}, {caster}", patch("white")));
-    let passes = scene.passes(Store::Caustics, Aim::Casters, 24, 100_000);
+    let passes = scene.passes(Store::Caustics, Aim::Casters, passes, 100_000);
     let found = power(&passes, |p| on_patch(&scene, p, [0.0, 0.0], HALF));
     let area = 4.0 * HALF * HALF;
     (found.mean / area, found.error / area)
@@ -65,7 +72,7 @@ pub(crate) fn by_paths(folder: &Path, more: &str, materials: &str, caster: &str)
 }
 
 fn assert_same(name: &str, folder: &Path, more: &str, materials: &str, caster: &str) {
-    let (photons, error) = by_photons(folder, more, materials, caster);
+    let (photons, error) = by_photons(folder, more, materials, caster, PASSES);
     let paths = by_paths(folder, more, materials, caster);
     println!("{name}: photons {photons} ± {error}, paths {paths}, {:.2} σ", (photons - paths) / error);
     assert!((photons - paths).abs() < 3.0 * error + 2e-3 * paths, "{name}: {photons} ± {error}, {paths}");
@@ -87,7 +94,7 @@ pub(crate) const TILTS: &str =
 fn a_mapped_mirror_throws_onto_a_floor_what_the_floor_sees_in_it() {
     let none = Path::new("");
     let mapped = r#""mapped": (reflection: 1, normal_map: (texture: "tilts"))"#;
-    let (photons, error) = by_photons(none, TILTS, mapped, &mirror("mapped"));
+    let (photons, error) = by_photons(none, TILTS, mapped, &mirror("mapped"), PASSES);
     let sky = lab_in(none, "", "", SKY, &patch("white")).world.environment.expect("a sky");
     let (n, m) = (80, 6);
     let mut expected = 0.0;
@@ -114,7 +121,7 @@ fn a_mapped_mirror_throws_onto_a_floor_what_the_floor_sees_in_it() {
     assert!((photons - expected).abs() < 3.0 * error, "{photons} ± {error}, {expected}");
     assert!(error < 0.04 * expected);
     // The map matters: a flat mirror differs by much more.
-    let (flat, _) = by_photons(none, "", "", &mirror("mirror"));
+    let (flat, _) = by_photons(none, "", "", &mirror("mirror"), PASSES);
     assert!((flat - expected).abs() > 6.0 * error, "{flat} instead of {expected} ± {error}");
     assert_same("mirror", none, TILTS, mapped, &mirror("mapped"));
 }
@@ -143,6 +150,6 @@ fn coarse_smooth_meshes_throw_onto_a_floor_what_the_floor_sees_in_them() {
 fn true_spheres_throw_what_is_seen_in_them() {
     let ball = r#"(shape: sphere(radius: 0.6, center: (0, 1.1, 0)), material: "glass")"#;
     assert_same("sphere", Path::new(""), "", "", ball);
-    let (photons, error) = by_photons(Path::new(""), "", "", &ball.replace("glass", "mirror"));
+    let (photons, error) = by_photons(Path::new(""), "", "", &ball.replace("glass", "mirror"), PASSES);
     assert!(photons > 0.0 && photons < 4.0 * PI && error > 0.0);
 }
