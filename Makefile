@@ -109,7 +109,7 @@ gallery: build
 
 # The frames of the turntable, how they are rendered, and the kind of the film.
 FRAMES ?= 1-48
-TURN   ?= --set image.width=320 --set image.height=180 --set 'photons=progressive()' --passes 8
+TURN   ?= --set image.width=320 --set image.height=180 --set photons.count=200000 --passes 24
 FORMAT ?= gif
 TURNS  := $(OUT)/turntable
 

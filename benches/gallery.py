@@ -167,8 +167,8 @@ def line(picture, kept):
 
 def page(scenes, record):
     text = ["# Gallery", "",
-            "What Terrarium renders, each with the scene that says so: nothing else was set, and nothing was",
-            "touched up. Below each picture are the processor time (two cores take half as long) and the relative",
+            f"What Terrarium renders, each with the scene that says so, at most {WIDTH} pixels wide. Beyond size, passes and",
+            "what is named nothing was set, and nothing was touched up. Below each picture are the processor time (two cores take half as long) and the relative",
             "error that the render states of itself ([what that is](../GUIDE.md#how-accurate-the-picture-is)); pictures of one pass state none.",
             "`make gallery` renders what has changed and writes this page."]
     for heading, stems in CHAPTERS:
