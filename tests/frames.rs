@@ -100,8 +100,7 @@ fn the_first_frame_of_the_showpiece_is_the_still() {
     let small = format!(
         "render {scene} -q --passes 1 --set image.width=48 --set image.height=27 --set photons=progressive(count:10000)"
     );
-    let still =
-        "--set animation.keys={} --set objects.terrarium.transform=[scale(0.2),rotate(axis:(0,1,0),deg:-15),translate((0,0.1594308,0))]";
+    let still = "--set animation.keys={} --set objects.terrarium.transform=[scale(0.2),rotate(axis:(0,1,0),deg:-15),translate((0,0.1594308,0))]";
     for call in ["-o first.exr", &format!("{still} -o still.exr"), "--frame 2 -o second.exr"] {
         let done = run(&folder, &format!("{small} {call}"));
         assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));

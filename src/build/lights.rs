@@ -5,7 +5,7 @@ use super::materials::{Surfaces, rgb};
 use super::objects::Placed;
 use super::world::{Geometry, Instance};
 use crate::description::{Light, Scene};
-use crate::math::{DAffine3, DMat3, DVec3, Frame, Placement, Vec3};
+use crate::math::{DAffine3, DMat3, DVec3, Frame, Placement, Vec3, parallelogram};
 use crate::optics::{Disk, Emitter, EmitterKind, Environment, MaterialId, Quad, Shape, Sphere};
 use crate::plan::Plan;
 
@@ -81,10 +81,7 @@ fn luminous_shape(
         ),
         Light::Quad { corner, edge_u, edge_v, radiance, two_sided, visible, .. } => {
             let (u, v) = (DVec3::from(*edge_u), DVec3::from(*edge_v));
-            let normal = u.cross(v);
-            // z × x = +y: the quad's own normal becomes edge_u × edge_v.
-            let matrix3 = DMat3::from_cols(v, normal.normalize() * normal.length().sqrt(), u);
-            let map = DAffine3 { matrix3, translation: at(corner) + (u + v) / 2.0 };
+            let map = DAffine3 { matrix3: parallelogram(u, v), translation: at(corner) + (u + v) / 2.0 };
             (Shape::Quad(Quad::new([1.0, 1.0])), map, radiance, *two_sided, *visible)
         }
         Light::Disk { center, normal, radius, radiance, two_sided, visible, .. } => {

@@ -6,8 +6,8 @@ use super::meshes::Meshes;
 use super::obj::PartName;
 use super::world::{Geometry, Instance};
 use super::{BuildError, scatter};
-use crate::description::{Object, Scale, Scene, Shape as Described, Transform};
-use crate::math::{DAffine3, DMat3, DVec3, Placement};
+use crate::description::{Object, Scene, Shape as Described, Transform};
+use crate::math::{DAffine3, DVec3, Placement};
 use crate::optics::{Cone, Cuboid, Disk, MaterialId, Polyhedron, Quad, Shape, Solid, Sphere};
 use std::collections::HashMap;
 
@@ -270,37 +270,5 @@ fn analytic(shape: &Described) -> Option<Shape> {
 
 /// The map of a list of transforms, the first applied first.
 pub(super) fn composed(transforms: &[Transform]) -> DAffine3 {
-    transforms.iter().fold(DAffine3::IDENTITY, |map, step| affine(step) * map)
-}
-
-fn affine(step: &Transform) -> DAffine3 {
-    match step {
-        Transform::Translate(v) => DAffine3::from_translation((*v).into()),
-        Transform::Scale(Scale::Uniform(s)) => DAffine3::from_scale(DVec3::splat(*s)),
-        Transform::Scale(Scale::PerAxis(s)) => DAffine3::from_scale((*s).into()),
-        Transform::Rotate { axis, deg } => rotation((*axis).into(), *deg),
-        Transform::Matrix([x, y, z]) => DAffine3 {
-            matrix3: DMat3::from_cols(
-                DVec3::new(x[0], y[0], z[0]),
-                DVec3::new(x[1], y[1], z[1]),
-                DVec3::new(x[2], y[2], z[2]),
-            ),
-            translation: DVec3::new(x[3], y[3], z[3]),
-        },
-    }
-}
-
-/// A turn about an axis through the origin; exact for multiples of 90°.
-pub(super) fn rotation(axis: DVec3, deg: f64) -> DAffine3 {
-    let (sin, cos) = match deg.rem_euclid(360.0) {
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        other => libm::sincos(other.to_radians()),
-    };
-    let a = axis.normalize();
-    // Rodrigues' formula, column by column.
-    let column = |e: DVec3| e * cos + a.cross(e) * sin + a * (a.dot(e) * (1.0 - cos));
-    DAffine3::from_mat3(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)))
+    transforms.iter().fold(DAffine3::IDENTITY, |map, step| step.map() * map)
 }

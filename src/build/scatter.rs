@@ -5,7 +5,7 @@ use super::objects::{Context, Placer, composed};
 use super::world::Geometry;
 use crate::description::{Object, Scatter, Shape as Described};
 use crate::math::random::{Counter, Stage};
-use crate::math::{DAffine3, DVec3, Placement};
+use crate::math::{DAffine3, DVec3, Placement, rotation};
 
 /// Draws for one copy before the ground is said to be too steep.
 const MAX_DRAWS: u32 = 10_000;
@@ -56,7 +56,7 @@ pub(super) fn strew<'a>(
         let up = DVec3::Y.lerp(n, scatter.align).normalize();
         let map = DAffine3::from_translation(p)
             * upright_to(up)
-            * super::objects::rotation(DVec3::Y, turn)
+            * rotation(DVec3::Y, turn)
             * DAffine3::from_scale(DVec3::splat(scale))
             * DAffine3::from_translation(DVec3::new(0.0, -scatter.sink_m, 0.0));
         let placed = Context { world_from_parent: context.world_from_parent * map, ..context };
@@ -70,9 +70,9 @@ fn upright_to(up: DVec3) -> DAffine3 {
     let axis = DVec3::Y.cross(up);
     let sin = axis.length();
     if sin < 1e-12 {
-        return if up.y > 0.0 { DAffine3::IDENTITY } else { super::objects::rotation(DVec3::X, 180.0) };
+        return if up.y > 0.0 { DAffine3::IDENTITY } else { rotation(DVec3::X, 180.0) };
     }
-    super::objects::rotation(axis, libm::atan2(sin, up.y).to_degrees())
+    rotation(axis, libm::atan2(sin, up.y).to_degrees())
 }
 
 /// The surface named by `over`: a placed object where it stands, or a definition that is not seen.

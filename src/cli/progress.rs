@@ -196,7 +196,6 @@ impl Progress for Reporter {
 
     fn advance(&self, done: u64) {
         self.breakage.step();
-        let error = self.told_error();
         let mut guard = self.stage();
         let Some(stage) = guard.as_mut() else { return };
         stage.done = stage.done.saturating_add(done);
@@ -204,6 +203,7 @@ impl Progress for Reporter {
         if let Some(bar) = &stage.bar {
             if silence >= SHORTEST_SILENCE {
                 let left = stage.seconds_left().map_or(String::new(), |s| format!(", {} left", duration(s)));
+                let error = self.told_error();
                 bar.set_message(format!("{}, {}{left}{error}", stage.percent(), stage.rate()));
                 bar.set_position(stage.done.min(stage.total.saturating_sub(1)));
                 stage.told.0 = Instant::now();

@@ -1,6 +1,7 @@
 //! Placement of objects: a list of steps, applied first to last.
 
 use super::Vector;
+use crate::math::{DAffine3, DVec3, rotation};
 use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error, SeqAccess, Visitor};
@@ -34,6 +35,22 @@ pub enum Transform {
     /// objects: [(shape: box(), transform: [matrix(((1, 0, 0, 2), (0, 1, 0, 0), (0, 0.5, 1, 0)))])]
     /// ```
     Matrix([[f64; 4]; 3]),
+}
+
+impl Transform {
+    /// What it does to points. The axis of a turn must not be (0, 0, 0).
+    pub fn map(&self) -> DAffine3 {
+        match self {
+            Transform::Translate(v) => DAffine3::from_translation((*v).into()),
+            Transform::Scale(Scale::Uniform(s)) => DAffine3::from_scale(DVec3::splat(*s)),
+            Transform::Scale(Scale::PerAxis(s)) => DAffine3::from_scale((*s).into()),
+            Transform::Rotate { axis, deg } => rotation((*axis).into(), *deg),
+            Transform::Matrix(rows) => {
+                let column = |c: usize| DVec3::from_array(rows.map(|row| row[c]));
+                DAffine3::from_cols(column(0), column(1), column(2), column(3))
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]

@@ -3,7 +3,7 @@
 use super::Checker;
 use crate::description::tree::{Path, number};
 use crate::description::{EnvironmentMap, Light, Rgb};
-use crate::math::{DAffine3, DMat3, DVec3, MAX_SQUEEZE, Placement};
+use crate::math::{DAffine3, DVec3, MAX_SQUEEZE, Placement, parallelogram};
 
 pub(super) fn check(c: &mut Checker) {
     let mut environment: Option<&str> = None;
@@ -63,7 +63,7 @@ fn check_light(c: &mut Checker, base: &Path, light: &Light) {
         }
         Light::Quad { edge_u, edge_v, radiance, samples, .. } => {
             let path = base.key("quad");
-            parallelogram(c, &path, *edge_u, *edge_v);
+            check_edges(c, &path, *edge_u, *edge_v);
             emission(c, &path.key("radiance"), radiance);
             shadow_rays(c, &path, *samples);
         }
@@ -115,7 +115,7 @@ fn shadow_rays(c: &mut Checker, path: &Path, samples: Option<u32>) {
     }
 }
 
-fn parallelogram(c: &mut Checker, path: &Path, edge_u: [f64; 3], edge_v: [f64; 3]) {
+fn check_edges(c: &mut Checker, path: &Path, edge_u: [f64; 3], edge_v: [f64; 3]) {
     let (u, v) = (path.key("edge_u"), path.key("edge_v"));
     c.direction(&u, edge_u);
     c.direction(&v, edge_v);
@@ -124,18 +124,11 @@ fn parallelogram(c: &mut Checker, path: &Path, edge_u: [f64; 3], edge_v: [f64; 3
         && a.cross(b).length() < 1e-12
     {
         c.error_about(&[&v, &u], "`edge_v` is parallel to `edge_u`: the quad has no area");
-    } else if !places(edge_u.into(), edge_v.into()) {
+    } else if Placement::new(DAffine3::from_mat3(parallelogram(edge_u.into(), edge_v.into()))).is_none() {
         let message = format!(
             "a quad more than {MAX_SQUEEZE:e} times as long as wide, or whose area leaves the range of numbers, \
              cannot be placed"
         );
         c.error_about(&[&v, &u], message);
     }
-}
-
-/// Whether the quad can be placed: edges, and a normal as long as the root of the area.
-fn places(edge_u: DVec3, edge_v: DVec3) -> bool {
-    let normal = edge_u.cross(edge_v);
-    let third = normal.normalize_or_zero() * normal.length().sqrt();
-    Placement::new(DAffine3::from_mat3(DMat3::from_cols(edge_u, third, edge_v))).is_some()
 }

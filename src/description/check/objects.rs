@@ -2,8 +2,8 @@
 
 use super::Checker;
 use crate::description::tree::{Path, number};
-use crate::description::{Object, Scale, Scatter, Shape, Transform};
-use crate::math::{DAffine3, DMat3, DVec3, MAX_SQUEEZE, Placement, flattens};
+use crate::description::{Object, Scatter, Shape, Transform};
+use crate::math::{DAffine3, DMat3, MAX_SQUEEZE, Placement, flattens};
 use std::collections::HashMap;
 
 /// The place of `objects`.
@@ -128,24 +128,13 @@ fn transforms(c: &mut Checker, object: &Path, steps: &[Transform], around: DMat3
     let mut sound = true;
     for (i, step) in steps.iter().enumerate() {
         let here = path.index(i);
-        let matrix = match step {
-            Transform::Translate(_) => continue,
-            Transform::Scale(Scale::Uniform(factor)) => DMat3::from_diagonal(DVec3::splat(*factor)),
-            Transform::Scale(Scale::PerAxis(factors)) => DMat3::from_diagonal(DVec3::from(*factors)),
-            // only its axis can be wrong
-            Transform::Rotate { axis, deg } => {
-                c.direction(&here.key("rotate").key("axis"), *axis);
-                match DVec3::from(*axis).try_normalize() {
-                    Some(axis) if deg.is_finite() => DMat3::from_axis_angle(axis, deg.to_radians()),
-                    _ => continue,
-                }
-            }
-            Transform::Matrix(rows) => {
-                let row = |r: usize| DVec3::new(rows[r][0], rows[r][1], rows[r][2]);
-                DMat3::from_cols(row(0), row(1), row(2)).transpose()
-            }
-        };
-        if flattens(&matrix) {
+        // Of a turn only the axis can be wrong.
+        if let Transform::Rotate { axis, .. } = step {
+            c.direction(&here.key("rotate").key("axis"), *axis);
+        }
+        let matrix = step.map().matrix3;
+        sound &= matrix.is_finite();
+        if !matches!(step, Transform::Rotate { .. }) && flattens(&matrix) {
             sound = false;
             let message = if matrix.determinant() == 0.0 {
                 "this step flattens the object to nothing: a factor or the determinant is 0".to_owned()

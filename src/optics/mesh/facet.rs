@@ -127,11 +127,14 @@ impl Facet<'_> {
         for i in 0..3 {
             let n = normals[i] - tilt;
             // Up to the plane tangent at the vertex, if the point is below it.
-            lift += n * (weights[i] * (self.corners[i] - p).dot(n).max(0.0));
+            lift += n * (ONTO_SURFACE * weights[i] * (self.corners[i] - p).dot(n).max(0.0));
         }
         if lift.length_squared() > self.p_error * self.p_error { p + lift } else { p }
     }
 }
+
+/// Of the way to the tangent planes: a surface of even curvature lies half as high above its chords as their mean.
+const ONTO_SURFACE: f64 = 0.5;
 
 /// Aspect up to which the bound below grows. Longer triangles would be left by offsets as large as they
 /// are high; what is met again beyond is rarer than one grazing ray in 1e5.
