@@ -190,9 +190,9 @@ study: build
 	    cp "study/$$name/plot.png" "docs/images/study-$$name.png" || exit 1; done
 	@if command -v python3 >/dev/null; then python3 benches/study_pages.py; fi
 
-## assets: make the meshes and textures that programs write
-assets: build
-	@if [ -x assets/make ]; then assets/make; else echo "nothing to make"; fi
+## assets: make the meshes and textures anew, by assets/generator
+assets:
+	$(CARGO) run --release --locked --example assets
 
 ## schema: write terrarium.schema.json, for completion in editors
 schema: build
