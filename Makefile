@@ -179,14 +179,20 @@ honesty: build
 STUDY_TIME ?= 10min
 STUDY = '$(TERRARIUM)' study --time $(STUDY_TIME)
 
-## study: accuracy against time for three scenes, to study/, and their plots to docs/images/; takes half an hour
+## study: accuracy against time in six studies, to study/, and their plots to docs/images/; takes an hour
 study: build
 	$(STUDY) scenes/yardstick/caustic-sphere.ron -o study/caustic-sphere --set image.width=128 --set image.height=128
+	$(STUDY) scenes/yardstick/caustic-sphere.ron -o study/caustic --set image.width=128 --set image.height=128 \
+	    --only caustics --knobs passes
+	$(STUDY) scenes/gallery/soft_shadows.ron -o study/direct --set image.width=200 --set image.height=113 \
+	    --without caustics --knobs passes,antialiasing
 	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=240 --set image.height=135
 	$(STUDY) scenes/gallery/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
 	    --knobs antialiasing,threshold,depth
+	$(STUDY) scenes/yardstick/primitives.ron -o study/primitives --set 'antialiasing=adaptive(threshold:0.05,depth:2)' \
+	    --seeds 2 --knobs antialiasing,threshold,depth
 	@mkdir -p docs/images
-	@for name in caustic-sphere terrarium antialiasing; do \
+	@for name in caustic-sphere caustic direct terrarium antialiasing primitives; do \
 	    cp "study/$$name/plot.png" "docs/images/study-$$name.png" || exit 1; done
 	@if command -v python3 >/dev/null; then python3 benches/study_pages.py; fi
 

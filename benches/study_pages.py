@@ -18,11 +18,7 @@ def found(name):
     lines = ["![Error against time](images/study-%s.png)" % name, ""]
     for line in study["lines"]:
         label = line["line"] if line["line"] == line["knob"] else line["knob"] + ", " + line["line"]
-        text = "- **%s**: %s" % (label.replace("_", " "), line["sentence"])
-        if line["theory"] and line["error_by_number"] is not None:
-            theory = sorted({"%.2f" % slope for slope in line["theory"]}, reverse=True)
-            text += " Slope in passes: %.2f; theory: %s." % (line["error_by_number"], " to ".join(theory))
-        lines.append(text)
+        lines.append("- **%s**: %s" % (label.replace("_", " "), line["sentence"]))
     lines += ["- **%s**: nothing to change: %s." % (out["knob"].replace("_", " "), out["reason"])
               for out in study["left_out"]]
     reference, honest = study["reference"], study["honest"]

@@ -104,6 +104,8 @@ fn solids_are_closed_wind_outward_and_stay_within_the_glass() {
         ("wine.obj", 0.12, 0.25),
         ("lens.obj", 0.79, 0.83),
         ("pool_water.obj", 13.0, 13.25),
+        // 2π²·0.5·0.22² of the smooth one.
+        ("torus.obj", 0.4, 0.477),
     ] {
         let mesh = obj(name);
         assert_eq!(mesh.open_edges(), 0, "{name}");

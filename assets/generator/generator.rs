@@ -26,6 +26,7 @@ pub mod solid;
 pub mod sweep;
 pub mod terrain;
 pub mod textures;
+pub mod torus;
 pub mod tube;
 pub mod water;
 
@@ -79,6 +80,7 @@ const CATALOGUE: &[(&str, Make)] = &[
     ("obj/lens.obj", |_| lathe::lens().obj()),
     ("obj/pool_water.obj", |_| pool::water().obj()),
     ("obj/sweep.obj", |_| sweep::sweep().obj()),
+    ("obj/torus.obj", |_| torus::coarse().obj()),
     ("env/evening.exr", |_| sky::evening()),
 ];
 

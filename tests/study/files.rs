@@ -45,7 +45,7 @@ fn everything_is_written_and_can_be_read() {
     let plot = text(folder.path(), "plot.svg");
     assert!(plot.starts_with("<svg") && plot.trim_end().ends_with("</svg>"));
     assert_eq!(plot.matches("<circle").count(), all.len());
-    assert!(plot.contains("Pareto front") && plot.contains("theory: −0.50"), "{plot}");
+    assert!(plot.contains("Pareto front") && plot.contains("theory: −0.75 to −0.50"), "{plot}");
     let drawn = read::load(&folder.path().join("out/plot.png")).expect("a picture");
     assert!(drawn.width > 1000 && drawn.height > 500);
 
@@ -79,7 +79,7 @@ fn errors_fall_with_passes_and_the_reference_is_better_than_all() {
     // Noise of samples that are spread well falls at least as fast as that of independent ones.
     let slope = found["lines"][0]["error_by_number"].as_f64().expect("a slope");
     assert!((-1.2..-0.35).contains(&slope), "{slope}");
-    assert_eq!(found["lines"][0]["theory"], serde_json::json!([-0.5, -0.5]));
+    assert_eq!(found["lines"][0]["theory"], serde_json::json!([-0.75, -0.5]));
 }
 
 /// The options of a rung's row make its picture, to the last bit.
@@ -129,5 +129,5 @@ fn photons_and_k_are_knobs_where_photons_run() {
     };
     assert_eq!(values("photons"), ["100", "400", "1600", "6400"]);
     assert_eq!(values("k"), ["3", "6", "12", "24", "48"]);
-    assert_eq!(found["lines"][0]["theory"], serde_json::json!([-0.5, -1.0 / 3.0]));
+    assert_eq!(found["lines"][0]["theory"], serde_json::json!([-0.75, -1.0 / 3.0]));
 }

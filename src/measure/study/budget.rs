@@ -1,7 +1,7 @@
 //! How far the ladders go in the time that there is: the plan's forecast of every rung, and what is given up
 //! where they are too many.
 
-use super::ladder::{Reach, ladder};
+use super::ladder::{Reach, ladder, passes_differ};
 use super::record::{LeftOut, Rung};
 use super::{Change, Knob};
 use crate::description::{Antialiasing, Loaded, Scene};
@@ -67,14 +67,15 @@ pub fn design(
     while progressive && asked.ladder.is_none() && f64::from(wished) > worst_passes && wished > fewest {
         wished /= 2;
     }
-    let mut reach = Reach { top: wished, base: plan.passes.min(wished.max(fewest)) };
+    let passes = if passes_differ(scene, plan) { plan.passes } else { 1 };
+    let mut reach = Reach { top: wished, base: passes.min(wished.max(fewest)) };
     let rungs = |reach: Reach| ladder(scene, plan, &asked.knobs, reach);
     let costs = forecast(loaded, options, &rungs(reach).0, progress)?;
     let price = |rung: &Rung| {
         costs.iter().find(|cost| cost.setting == rung.change).map_or(0.0, |cost| cost.of(rung.passes))
     };
     let wish = reach;
-    let least = plan.passes.min(FEWEST_BASE);
+    let least = passes.min(FEWEST_BASE);
     loop {
         let (mut found, left_out) = rungs(reach);
         found.iter_mut().for_each(|rung| rung.predicted_seconds = price(rung));
@@ -82,18 +83,18 @@ pub fn design(
             let of = found.iter().filter(|rung| (rung.knob == Knob::Passes) == ladder);
             of.map(|rung| rung.predicted_seconds).sum()
         };
-        let (passes, others) = (sum(true), sum(false));
+        let (ladder_s, others) = (sum(true), sum(false));
         let seeds = f64::from(asked.seeds);
         let shorter = reach.top > fewest && asked.ladder.is_none();
-        if (passes + others) * seeds <= seconds || !(shorter || reach.base > least) {
+        if (ladder_s + others) * seeds <= seconds || !(shorter || reach.base > least) {
             if reach.top < wish.top {
                 notes.push(format!("the ladder ends at {} passes, as the time allows no more", reach.top));
             }
-            if reach.base < plan.passes {
+            if reach.base < passes {
                 notes.push(format!(
                     "other knobs are turned at {} passes instead of the scene's {}, to fit the time and the \
                      reference",
-                    reach.base, plan.passes
+                    reach.base, passes
                 ));
             }
             let dropped = drop_dear(&mut found, seconds / seeds);
@@ -102,7 +103,7 @@ pub fn design(
             }
             return Ok(Design { rungs: found, left_out, notes });
         }
-        if shorter && (passes > others || reach.base <= least) {
+        if shorter && (ladder_s > others || reach.base <= least) {
             reach.top /= 2;
             reach.base = reach.base.min(reach.top.max(least));
         } else {

@@ -51,6 +51,20 @@ impl Knob {
         }
     }
 
+    /// What its number counts.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Knob::Passes => "passes",
+            Knob::Photons => "photons",
+            Knob::K => "k",
+            Knob::Antialiasing => "samples a side",
+            Knob::Threshold => "contrast",
+            Knob::Depth => "cells a side",
+            Knob::ShadowRays => "shadow rays",
+            Knob::Mesh => "segments",
+        }
+    }
+
     /// What one step of it is called, and the factor of its number that the step is.
     pub fn step(self) -> (&'static str, f64) {
         match self {

@@ -77,11 +77,15 @@ fn numbers(
     values.into_iter().map(of).collect()
 }
 
-fn passes(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String> {
+/// Whether passes differ by more than what roulette does to branches of little weight.
+pub fn passes_differ(scene: &Scene, plan: &Plan) -> bool {
     let by_chance =
         [Effect::SoftShadows, Effect::Caustics, Effect::Indirect, Effect::DepthOfField, Effect::Environment];
-    if scene.antialiasing != Antialiasing::Progressive && !by_chance.iter().any(|effect| plan.is_on(*effect))
-    {
+    scene.antialiasing == Antialiasing::Progressive || by_chance.iter().any(|effect| plan.is_on(*effect))
+}
+
+fn passes(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String> {
+    if !passes_differ(scene, plan) {
         return Err(format!(
             "every pass is all but the same: with `antialiasing: {}` and nothing blurred, only branches of little \
              weight are left to chance",

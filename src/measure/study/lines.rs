@@ -1,13 +1,9 @@
 //! What each knob buys: slopes of its line, and a plain sentence.
 
 use super::record::{Honest, Line, Rung, Study, Summary};
-use super::table::{figures, percent};
-use super::{Change, Knob, reaches, slope};
-use crate::plan::{Antialiasing, Effect, PhotonBudget, PhotonEngine, Plan};
-
-/// Slopes of noise, and of shrinking radii (Knaus & Zwicker 2011), on logarithmic axes of error over passes.
-const OF_NOISE: f64 = -0.5;
-const OF_RADII: f64 = -1.0 / 3.0;
+use super::table::{figures, percent, signed};
+use super::{Change, Knob, reaches, slope, theory};
+use crate::plan::{Antialiasing, PhotonBudget, PhotonEngine, Plan};
 
 /// Logarithms of factors that are none: of error, and of time, which is noisy.
 const NOTHING: f64 = 0.01;
@@ -52,24 +48,13 @@ fn of(study: &Study, plan: &Plan, knob: Knob, line: String) -> Option<Line> {
     let error_by_seconds = pairs(&|(_, s)| Some([s.seconds[0], s.error[0]]));
     let error_by_number = pairs(&|(rung, s)| Some([rung.x?, s.error[0]]));
     let seconds_by_number = pairs(&|(rung, s)| Some([rung.x?, s.seconds[0]]));
-    let theory = if knob == Knob::Passes { theory(plan) } else { None };
-    let sentence = sentence(study, knob, &line, &points, error_by_number, seconds_by_number)?;
+    let theory = theory::slopes(plan, knob, &line);
+    let mut sentence = sentence(study, knob, &line, &points, error_by_number, seconds_by_number)?;
+    if let Some((found, theory)) = error_by_number.zip(theory) {
+        sentence +=
+            &format!(" Slope in {}: {}; theory: {}.", knob.unit(), signed(found), theory::said(theory));
+    }
     Some(Line { knob, line, error_by_seconds, error_by_number, seconds_by_number, theory, sentence })
-}
-
-/// What theory says of passes: noise alone, or with photons whose radius shrinks. Nothing where samples lie
-/// where they always lie.
-fn theory(plan: &Plan) -> Option<[f64; 2]> {
-    if plan.antialiasing != Antialiasing::Progressive {
-        return None;
-    }
-    let indirect = plan.is_on(Effect::Indirect).then_some(plan.indirect_photons);
-    let photons = plan.photons.or(indirect);
-    match photons.map(|photons| photons.engine) {
-        None => Some([OF_NOISE; 2]),
-        Some(PhotonEngine::Progressive { .. }) => Some([OF_NOISE, OF_RADII]),
-        Some(PhotonEngine::Classic { .. }) => None,
-    }
 }
 
 fn sentence(
@@ -121,23 +106,46 @@ fn sentence(
 }
 
 /// How adaptive antialiasing compares with the grid of its error: in time, and in camera rays, which do not
-/// depend on what else the machine does.
-fn beside_grid(study: &Study, adaptive: &Summary) -> String {
+/// depend on what else the machine does. Where no grid that was tried has that error, of the adaptive ones that
+/// a grid equals the best is compared.
+fn beside_grid(study: &Study, own: &Summary) -> String {
     let grid = |of: fn(&Summary) -> f64| -> Vec<[f64; 2]> {
         let grid = study.rendered().filter(|(rung, _)| rung.line == "grid");
         grid.map(|(_, s)| [of(s), s.error[0]]).collect()
     };
     let (by_time, by_rays) = (grid(|s| s.seconds[0]), grid(|s| s.camera_rays as f64));
-    let error = adaptive.error[0];
-    match (reaches(&by_time, error), reaches(&by_rays, error)) {
-        (Some(seconds), Some(rays)) => format!(
-            "; a grid of that error takes {} s, ×{}, and ×{} as many camera rays",
-            figures(seconds),
-            figures(seconds / adaptive.seconds[0]),
-            figures(rays / adaptive.camera_rays as f64)
-        ),
-        _ if by_time.iter().all(|point| point[1] > error) => "; no grid that was tried is as good".to_owned(),
-        _ => "; every grid that was tried is better".to_owned(),
+    let beside = |adaptive: &Summary| {
+        let error = adaptive.error[0];
+        let [seconds, rays] = [&by_time, &by_rays].map(|grid| reaches(grid, error));
+        seconds.zip(rays).map(|(seconds, rays)| {
+            format!(
+                "takes {} s, ×{}, and ×{} as many camera rays",
+                figures(seconds),
+                figures(seconds / adaptive.seconds[0]),
+                figures(rays / adaptive.camera_rays as f64)
+            )
+        })
+    };
+    if let Some(compared) = beside(own) {
+        return format!("; a grid of that error {compared}");
+    }
+    let is_adaptive =
+        |rung: &Rung| matches!(rung.change, Some(Change::Antialiasing(Antialiasing::Adaptive { .. })));
+    let others = study.rendered().filter(|(rung, _)| is_adaptive(rung));
+    let compared = others.filter_map(|(rung, s)| Some((rung, s, beside(s)?)));
+    let best = compared.min_by(|(_, a, _), (_, b, _)| a.error[0].total_cmp(&b.error[0]));
+    let all_worse = by_time.iter().all(|point| point[1] > own.error[0]);
+    let beyond =
+        if all_worse { "no grid that was tried is as good" } else { "every grid that was tried is better" };
+    match best {
+        Some((rung, s, compared)) => {
+            let (error, seconds) = (percent(s.error[0]), figures(s.seconds[0]));
+            format!(
+                "; {beyond}; with {} {error} in {seconds} s, and a grid of that error {compared}",
+                rung.title()
+            )
+        }
+        None => format!("; {beyond}"),
     }
 }
 

@@ -17,6 +17,7 @@ mod reference;
 mod rungs;
 mod sphere_mesh;
 mod table;
+mod theory;
 
 pub use change::Change;
 pub use fit::{pareto, reaches, slope, spread};

@@ -153,7 +153,7 @@ pub struct Line {
     pub error_by_seconds: Option<f64>,
     pub error_by_number: Option<f64>,
     pub seconds_by_number: Option<f64>,
-    /// Of error over passes, as theory has it: the steepest and the flattest part of this scene's light.
+    /// Of error over the knob's number, as theory has it: the steepest and the flattest part of this scene's light.
     pub theory: Option<[f64; 2]>,
     pub sentence: String,
 }

@@ -28,6 +28,11 @@ pub const COLUMNS: [&str; 22] = [
     "near_reference",
 ];
 
+/// A slope: two digits behind the point, with a real minus.
+pub fn signed(slope: f64) -> String {
+    format!("{slope:.2}").replace('-', "−")
+}
+
 /// Rungs that were rendered, with a line of titles (RFC 4180, but lines end with a newline alone).
 pub fn csv(study: &Study) -> String {
     let mut text = COLUMNS.join(",") + "\n";

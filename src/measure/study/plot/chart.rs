@@ -4,7 +4,8 @@
 use super::marks::{Anchor, Colour, Drawing, Mark};
 use super::scale::Scale;
 use crate::measure::study::record::{Rung, Study, Summary};
-use crate::measure::study::table::{figures, percent};
+use crate::measure::study::table::{figures, percent, signed};
+use crate::measure::study::theory;
 
 const SIZE: [f64; 2] = [884.0, 520.0];
 /// Left, right, top and bottom of the plotted field.
@@ -67,11 +68,10 @@ pub fn chart(study: &Study) -> Drawing {
         if let Some(slope) = line.error_by_seconds {
             told.push(format!("slope {} in time", signed(slope)));
         }
-        if let Some([steep, flat]) = line.theory {
-            let theory =
-                if steep == flat { signed(steep) } else { format!("{} to {}", signed(steep), signed(flat)) };
+        if let Some(slopes) = line.theory {
             let found = line.error_by_number.map_or("?".to_owned(), signed);
-            told.push(format!("{found} in passes; theory: {theory}"));
+            told.push(format!("{found} in {}", line.knob.unit()));
+            told.push(format!("theory: {}", theory::said(slopes)));
         }
         for text in told {
             row += 15.0;
@@ -110,12 +110,15 @@ fn axes(drawing: &mut Drawing, x: &Scale, y: &Scale) {
     });
 }
 
-/// What theory says of passes, through the first point of theirs that more passes than one make.
+/// What theory says of the first line that it says something of, through that line's last point.
 fn guides(drawing: &mut Drawing, study: &Study, shown: &[(&Rung, &Summary)], x: &Scale, y: &Scale) {
     let Some(line) = study.lines.iter().find(|line| line.theory.is_some()) else { return };
-    let points: Vec<&(&Rung, &Summary)> = shown.iter().filter(|(rung, _)| rung.knob == line.knob).collect();
+    let points: Vec<&(&Rung, &Summary)> =
+        shown.iter().filter(|(rung, _)| rung.knob == line.knob && rung.line == line.line).collect();
     let (Some((_, from)), Some((_, to))) = (points.first(), points.last()) else { return };
-    let mut slopes: Vec<f64> = line.theory.into_iter().flatten().collect();
+    // Time grows with the samples.
+    let samples = f64::from(theory::dimensions(line.knob));
+    let mut slopes: Vec<f64> = line.theory.into_iter().flatten().map(|slope| slope / samples).collect();
     slopes.dedup();
     for (i, slope) in slopes.into_iter().enumerate() {
         // Backwards from the last point: there the fixed costs count least.
@@ -147,9 +150,4 @@ fn ranges(drawing: &mut Drawing, s: &Summary, at: [f64; 2], x: &Scale, y: &Scale
     if s.seconds[2] > s.seconds[1] {
         drawing.line(vec![[x.place(s.seconds[1]), at[1]], [x.place(s.seconds[2]), at[1]]], colour, 1.0);
     }
-}
-
-/// Two digits behind the point, with a real minus.
-fn signed(slope: f64) -> String {
-    format!("{slope:.2}").replace('-', "−")
 }
