@@ -34,9 +34,38 @@ impl Camera {
         Ray { origin, dir: (self.eye + dir * self.focus - origin).normalize() }
     }
 
-    /// Half the angle that a pixel at the centre of the film covers, radians: the spread of a ray cone.
+    /// Half the angle, radians, that a pixel covers where it is seen in the unit direction `dir`: the spread of a
+    /// ray cone. Off the axis a pixel is cosθ as wide, and cos²θ as wide along the radius; the former is taken.
     #[inline]
-    pub fn pixel_spread(&self) -> f64 {
-        self.tan_half / f64::from(self.height)
+    pub fn pixel_spread(&self, dir: DVec3) -> f64 {
+        self.tan_half / f64::from(self.height) * self.forward.dot(dir)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Beside each other across the radius, rays of neighbouring pixels are two spreads apart.
+    #[test]
+    fn pixels_off_the_axis_cover_less() {
+        let camera = Camera {
+            eye: DVec3::ZERO,
+            right: DVec3::X,
+            up: DVec3::Y,
+            forward: DVec3::NEG_Z,
+            tan_half: 2.0,
+            lens_radius: 0.0,
+            focus: 1.0,
+            width: 400,
+            height: 400,
+        };
+        for x in [200.0, 300.0, 400.0] {
+            let [above, here, below] =
+                [-0.5, 0.0, 0.5].map(|dy| camera.ray(DVec2::new(x, 200.0 + dy), DVec2::ZERO).dir);
+            let apart = above.angle_between(below);
+            let spread = camera.pixel_spread(here);
+            assert!((2.0 * spread / apart - 1.0).abs() < 1e-4, "{x}: {spread} and {apart}");
+        }
     }
 }

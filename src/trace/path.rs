@@ -124,7 +124,7 @@ impl Tracer<'_> {
             ray,
             throughput: Vec3::ONE,
             media: scratch.start.unwrap_or_else(|| self.world.media_at(ray.origin)),
-            cone: Cone { width: 0.0, spread: camera.pixel_spread() },
+            cone: Cone { width: 0.0, spread: camera.pixel_spread(ray.dir) },
             depth: 0,
             bounces: 0,
             wavelength: None,

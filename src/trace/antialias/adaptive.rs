@@ -46,12 +46,13 @@ pub(super) fn pass(
         finer: HashMap::default(),
     };
     let mut is_probe = super::probes(tracer);
-    for (x, y) in tile.pixels() {
+    let uneven = lattice.uneven(tile);
+    for ((x, y), stands_out) in tile.pixels().zip(uneven) {
         let probe = is_probe(x, y);
         let mut average = Average::of(super::wants(tracer, probe));
         let size = lattice.steps;
         let mut used = 0;
-        if lattice.stands_out(x, y) {
+        if stands_out {
             lattice.cell(x * size, y * size, size, &mut average, &mut used);
         } else {
             used = 1;
@@ -114,18 +115,35 @@ impl Lattice<'_> {
         self.point(x * self.steps + half, y * self.steps + half)
     }
 
-    /// Whether a pixel and the eight around it differ in their centres.
-    fn stands_out(&mut self, x: u32, y: u32) -> bool {
-        let camera = &self.tracer.world.camera;
-        let (right, bottom) = ((x + 1).min(camera.width - 1), (y + 1).min(camera.height - 1));
-        let mut range = Range::default();
-        for y in y.saturating_sub(1)..=bottom {
-            for x in x.saturating_sub(1)..=right {
-                let centre = self.centre(x, y);
-                range.add(self.radiances[centre as usize]);
-            }
-        }
-        range.contrast(self.floor) > self.threshold
+    /// For each pixel of the tile, whether it and the eight around it differ in their centres.
+    fn uneven(&mut self, tile: &Tile) -> Vec<bool> {
+        let Camera { width, height, .. } = self.tracer.world.camera;
+        let around = |at: u32, length: u32, most: u32| at.saturating_sub(1)..=(at + length).min(most - 1);
+        let (columns, rows) = (around(tile.x, tile.width, width), around(tile.y, tile.height, height));
+        let first = (tile.x - columns.start(), tile.y - rows.start());
+        // Of each pixel and its neighbours in the row; then of three rows together.
+        let ranges: Vec<Vec<Range>> = rows
+            .map(|y| {
+                let row: Vec<Range> = columns
+                    .clone()
+                    .map(|x| {
+                        let centre = self.centre(x, y);
+                        Range::of(self.radiances[centre as usize])
+                    })
+                    .collect();
+                widened(&row, first.0, tile.width)
+            })
+            .collect();
+        let (floor, threshold) = (self.floor, self.threshold);
+        let of = |line: u32, column: usize| {
+            let rows = &ranges[near(line + first.1, ranges.len())];
+            let all = rows.iter().fold(Range::default(), |all, row| all.with(row[column]));
+            all.contrast(floor) > threshold
+        };
+        (0..tile.height)
+            .flat_map(|line| (0..tile.width as usize).map(move |column| (line, column)))
+            .map(|(line, column)| of(line, column))
+            .collect()
     }
 
     /// Adds the mean of the cell at (x, y) of `size` lattice steps, weighted by its area. A cell that
@@ -152,9 +170,9 @@ impl Lattice<'_> {
     }
 
     fn differ(&self, corners: &[u32; 4], centre: u32) -> bool {
-        let mut range = Range::default();
-        corners.iter().chain([&centre]).for_each(|&c| range.add(self.radiances[c as usize]));
-        range.contrast(self.floor) > self.threshold
+        let of = |place: u32| Range::of(self.radiances[place as usize]);
+        let all = corners.iter().fold(of(centre), |all, &corner| all.with(of(corner)));
+        all.contrast(self.floor) > self.threshold
     }
 
     /// Adds a sample to a mean, unless it was dropped.
@@ -208,7 +226,19 @@ impl Lattice<'_> {
     }
 }
 
-/// The least and the greatest of the finite radiances, channel by channel.
+/// Places beside `at` among so many, and itself.
+fn near(at: u32, len: usize) -> std::ops::Range<usize> {
+    (at as usize).saturating_sub(1)..(at as usize + 2).min(len)
+}
+
+/// The ranges of `width` places from `first` on, each together with those beside it.
+fn widened(row: &[Range], first: u32, width: u32) -> Vec<Range> {
+    let of = |at: u32| row[near(at, row.len())].iter().fold(Range::default(), |all, range| all.with(*range));
+    (first..first + width).map(of).collect()
+}
+
+/// The least and the greatest of finite radiances, channel by channel.
+#[derive(Clone, Copy)]
 struct Range {
     lo: Vec3,
     hi: Vec3,
@@ -221,10 +251,16 @@ impl Default for Range {
 }
 
 impl Range {
-    fn add(&mut self, radiance: Vec3) {
+    fn of(radiance: Vec3) -> Range {
         if radiance.is_finite() {
-            (self.lo, self.hi) = (self.lo.min(radiance), self.hi.max(radiance));
+            Range { lo: radiance, hi: radiance.max(Vec3::ZERO) }
+        } else {
+            Range::default()
         }
+    }
+
+    fn with(self, other: Range) -> Range {
+        Range { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
     fn contrast(&self, floor: f32) -> f32 {
