@@ -87,10 +87,11 @@ pub fn design(
         let seeds = f64::from(asked.seeds);
         let shorter = reach.top > fewest && asked.ladder.is_none();
         if (ladder_s + others) * seeds <= seconds || !(shorter || reach.base > least) {
-            if reach.top < wish.top {
+            if reach.top < wish.top && asked.knobs.contains(&Knob::Passes) {
                 notes.push(format!("the ladder ends at {} passes, as the time allows no more", reach.top));
             }
-            if reach.base < passes {
+            let others = |rung: &Rung| !matches!(rung.knob, Knob::Passes | Knob::Antialiasing);
+            if reach.base < passes && found.iter().any(others) {
                 notes.push(format!(
                     "other knobs are turned at {} passes instead of the scene's {}, to fit the time and the \
                      reference",
@@ -112,12 +113,14 @@ pub fn design(
     }
 }
 
-/// Drops the dearest rungs, not those of the ladder of passes, until all of them take `seconds`. Returns their
-/// names.
+/// Drops the dearest rungs, not those of the ladder of passes nor the scene's adaptive antialiasing, until all of them
+/// take `seconds`. Returns their names.
 fn drop_dear(rungs: &mut Vec<Rung>, seconds: f64) -> Vec<String> {
     let mut dropped = Vec::new();
     while rungs.iter().map(|rung| rung.predicted_seconds).sum::<f64>() > seconds {
-        let others = rungs.iter().enumerate().filter(|(_, rung)| rung.knob != Knob::Passes);
+        // Adaptive antialiasing is what the grids are compared with.
+        let kept = |rung: &Rung| rung.knob == Knob::Passes || rung.line == "adaptive";
+        let others = rungs.iter().enumerate().filter(|(_, rung)| !kept(rung));
         let dearest = others.max_by(|a, b| a.1.predicted_seconds.total_cmp(&b.1.predicted_seconds));
         let Some((at, _)) = dearest else { break };
         let rung = rungs.remove(at);

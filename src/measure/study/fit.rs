@@ -10,19 +10,17 @@ pub fn spread(values: impl IntoIterator<Item = f64>) -> Option<[f64; 3]> {
     Some([median, first, last])
 }
 
-/// The slope of ln y over ln x by least squares: p where y = c·x^p. `None` of fewer than two different x,
-/// or values that are not above 0.
+/// The slope of ln y over ln x by least squares: p where y = c·x^p. Points with a value that is not above 0 are left
+/// out. `None` of fewer than two different x.
 pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
-    if points.iter().flatten().any(|v| !(v.is_finite() && *v > 0.0)) {
-        return None;
-    }
-    let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(libm::log)).collect();
+    let sound = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite() && *v > 0.0);
+    let logs: Vec<[f64; 2]> = points.iter().filter(sound).map(|p| p.map(libm::log)).collect();
     let n = logs.len() as f64;
     let mean = |i: usize| logs.iter().map(|p| p[i]).sum::<f64>() / n;
     let (mx, my) = (mean(0), mean(1));
     let xx: f64 = logs.iter().map(|p| (p[0] - mx) * (p[0] - mx)).sum();
     let xy: f64 = logs.iter().map(|p| (p[0] - mx) * (p[1] - my)).sum();
-    let distinct = logs.iter().any(|p| p[0] != logs[0][0]);
+    let distinct = logs.iter().any(|p| Some(p[0]) != logs.first().map(|first| first[0]));
     (distinct && xx > 0.0).then(|| xy / xx)
 }
 
@@ -35,7 +33,8 @@ pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
 /// The x at which a line through points, straight between neighbours on logarithmic axes, has this y; `None`
 /// where it never has.
 pub fn reaches(points: &[[f64; 2]], y: f64) -> Option<f64> {
-    let mut points = points.to_vec();
+    let sound = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite() && *v > 0.0);
+    let mut points: Vec<[f64; 2]> = points.iter().filter(sound).copied().collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let within = |pair: &&[[f64; 2]]| (pair[0][1] - y) * (pair[1][1] - y) <= 0.0;
     let pair = points.windows(2).find(within)?;
@@ -61,6 +60,8 @@ mod tests {
         assert_eq!(slope(&[[1.0, 2.0]]), None);
         assert_eq!(slope(&[[1.0, 2.0], [1.0, 3.0]]), None);
         assert_eq!(slope(&[[1.0, 2.0], [2.0, 0.0]]), None);
+        assert_eq!(slope(&[]), None);
+        assert_eq!(slope(&[[1.0, 4.0], [4.0, 2.0], [8.0, 0.0]]), Some(-0.5));
     }
 
     #[test]

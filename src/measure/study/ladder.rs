@@ -97,7 +97,7 @@ fn passes(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String>
 }
 
 /// The budget of photons that runs, of caustics or of indirect light; or why there is none.
-fn budget(plan: &Plan) -> Result<PhotonBudget, String> {
+pub fn budget(plan: &Plan) -> Result<PhotonBudget, String> {
     if let Some(budget) = plan.photons {
         return Ok(budget);
     }

@@ -3,11 +3,14 @@
 use super::record::{Honest, Line, Rung, Study, Summary};
 use super::table::{figures, percent, signed};
 use super::{Change, Knob, reaches, slope, theory};
-use crate::plan::{Antialiasing, PhotonBudget, PhotonEngine, Plan};
+use crate::plan::{Antialiasing, PhotonEngine, Plan};
 
 /// Logarithms of factors that are none: of error, and of time, which is noisy.
 const NOTHING: f64 = 0.01;
 const SAME_TIME: f64 = 0.05;
+
+/// Points whose slope stands beside theory: of few passes the law of many does not hold yet.
+const LATE: usize = 4;
 
 /// Adds lines and honesty, and says whether every rung has all its runs.
 pub fn conclude(study: &mut Study, plan: &Plan) {
@@ -19,23 +22,32 @@ pub fn conclude(study: &mut Study, plan: &Plan) {
         }
     }
     study.lines = names.into_iter().filter_map(|(knob, line)| of(study, plan, knob, line)).collect();
-    let shown = study.rungs.iter().filter(|rung| shows_its_error(rung, plan));
-    let stated = shown.flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
+    // The same setting may stand on several lines: it counts once.
+    let mut shown: Vec<&Rung> = Vec::new();
+    for rung in study.rungs.iter().filter(|rung| shows_its_error(rung, plan)) {
+        let made = |rung: &Rung| rung.runs.first().map(|run| [run.error.to_bits(), run.seconds.to_bits()]);
+        if !shown.iter().any(|other| made(other) == made(rung)) {
+            shown.push(rung);
+        }
+    }
+    let stated = shown.into_iter().flat_map(|rung| &rung.runs).filter_map(|r| Some((r.error, r.interval?)));
     study.honest = stated.fold(Honest::default(), |sum, (error, [low, high])| Honest {
         held: sum.held + u32::from((low..=high).contains(&error)),
         of: sum.of + 1,
     });
-    study.complete = study.rungs.iter().all(|rung| rung.runs.len() == study.asked.seeds as usize);
+    study.complete = study.rungs.iter().all(|rung| rung.runs.len() >= study.asked.seeds as usize);
 }
 
-/// Whether passes of this rung show all of its error: not where samples or photons are always the same.
+/// Whether passes of this rung show all of its error: not where samples, photons or facets are always the same.
 fn shows_its_error(rung: &Rung, plan: &Plan) -> bool {
     let antialiasing = match rung.change {
         Some(Change::Antialiasing(kind)) => kind,
         _ => plan.antialiasing,
     };
-    let classic = |photons: &PhotonBudget| matches!(photons.engine, PhotonEngine::Classic { .. });
-    antialiasing == Antialiasing::Progressive && !plan.photons.as_ref().is_some_and(classic)
+    let classic = |engine| matches!(engine, PhotonEngine::Classic { .. });
+    antialiasing == Antialiasing::Progressive
+        && !matches!(rung.change, Some(Change::Mesh(_)))
+        && !theory::engines(plan).any(classic)
 }
 
 type Point<'a> = (&'a Rung, &'a Summary);
@@ -50,11 +62,24 @@ fn of(study: &Study, plan: &Plan, knob: Knob, line: String) -> Option<Line> {
     let seconds_by_number = pairs(&|(rung, s)| Some([rung.x?, s.seconds[0]]));
     let theory = theory::slopes(plan, knob, &line);
     let mut sentence = sentence(study, knob, &line, &points, error_by_number, seconds_by_number)?;
-    if let Some((found, theory)) = error_by_number.zip(theory) {
-        sentence +=
-            &format!(" Slope in {}: {}; theory: {}.", knob.unit(), signed(found), theory::said(theory));
+    let late = &points[points.len().saturating_sub(LATE)..];
+    let late = late.iter().filter_map(|(rung, s)| Some([rung.x?, s.error[0]]));
+    let late_error_by_number = slope(&late.collect::<Vec<_>>());
+    if let Some((found, theory)) = late_error_by_number.zip(theory) {
+        let of = if points.len() > LATE { format!(" of the last {LATE}") } else { String::new() };
+        let (found, theory) = (signed(found), theory::said(theory));
+        sentence += &format!(" Slope{of} in {}: {found}; theory, of many: {theory}.", knob.unit());
     }
-    Some(Line { knob, line, error_by_seconds, error_by_number, seconds_by_number, theory, sentence })
+    Some(Line {
+        knob,
+        line,
+        error_by_seconds,
+        error_by_number,
+        seconds_by_number,
+        late_error_by_number,
+        theory,
+        sentence,
+    })
 }
 
 fn sentence(
@@ -83,7 +108,7 @@ fn sentence(
         }
         _ => format!(
             "{}: error {} in {} s",
-            capital(&first.value),
+            capital(&first.title()),
             percent(from.error[0]),
             figures(from.seconds[0])
         ),
@@ -94,7 +119,7 @@ fn sentence(
         };
         text += &format!("; from {} to {}", at(first, from), at(last, to));
         let (best, least) = points.iter().min_by(|a, b| a.1.error[0].total_cmp(&b.1.error[0]))?;
-        if best.name != last.name {
+        if least.error[0] < to.error[0] && best.name != last.name {
             text += &format!("; the least error is at {}: {}", best.value, percent(least.error[0]));
         }
     }
@@ -119,7 +144,7 @@ fn beside_grid(study: &Study, own: &Summary) -> String {
         let [seconds, rays] = [&by_time, &by_rays].map(|grid| reaches(grid, error));
         seconds.zip(rays).map(|(seconds, rays)| {
             format!(
-                "takes {} s, ×{}, and ×{} as many camera rays",
+                "takes {} s, {} times as long, and {} times as many camera rays",
                 figures(seconds),
                 figures(seconds / adaptive.seconds[0]),
                 figures(rays / adaptive.camera_rays as f64)
@@ -131,7 +156,8 @@ fn beside_grid(study: &Study, own: &Summary) -> String {
     }
     let is_adaptive =
         |rung: &Rung| matches!(rung.change, Some(Change::Antialiasing(Antialiasing::Adaptive { .. })));
-    let others = study.rendered().filter(|(rung, _)| is_adaptive(rung));
+    // Grids have one pass.
+    let others = study.rendered().filter(|(rung, _)| is_adaptive(rung) && rung.passes == 1);
     let compared = others.filter_map(|(rung, s)| Some((rung, s, beside(s)?)));
     let best = compared.min_by(|(_, a, _), (_, b, _)| a.error[0].total_cmp(&b.error[0]));
     let all_worse = by_time.iter().all(|point| point[1] > own.error[0]);
@@ -140,10 +166,8 @@ fn beside_grid(study: &Study, own: &Summary) -> String {
     match best {
         Some((rung, s, compared)) => {
             let (error, seconds) = (percent(s.error[0]), figures(s.seconds[0]));
-            format!(
-                "; {beyond}; with {} {error} in {seconds} s, and a grid of that error {compared}",
-                rung.title()
-            )
+            let title = rung.title();
+            format!("; {beyond}; with {title}: error {error} in {seconds} s; a grid of that error {compared}")
         }
         None => format!("; {beyond}"),
     }

@@ -82,7 +82,7 @@ pub fn study(
 ) -> Result<Done, StudyError> {
     let began = Instant::now();
     let plan = Plan::new(&loaded.scene, &options.request()).map_err(RenderError::from)?;
-    let subject = subject(loaded, &plan);
+    let subject = subject(loaded, &plan, options);
     let earlier = Study::read(folder).filter(|s| s.subject == subject && reference::unchanged(&s.files));
     let left = || asked.seconds - began.elapsed().as_secs_f64();
 
@@ -112,9 +112,9 @@ pub fn study(
             Study {
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 scene: scene.to_owned(),
-                subject,
                 asked: asked.clone(),
-                threads: options.threads.unwrap_or_else(rayon::current_num_threads),
+                threads: subject.threads,
+                subject,
                 reference,
                 files: reference::hashes(&files),
                 rungs: design.rungs,
@@ -142,10 +142,12 @@ pub fn study(
     Ok(Done { study, rendered, rendered_reference })
 }
 
-fn subject(loaded: &Loaded, plan: &Plan) -> Subject {
+fn subject(loaded: &Loaded, plan: &Plan, options: &Options) -> Subject {
     let image = &loaded.scene.image;
     Subject {
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        program: std::env::current_exe().ok().and_then(|file| reference::hash_of(&file)),
+        threads: options.threads.unwrap_or_else(rayon::current_num_threads),
         scene_hash: hex(&loaded.hash),
         effects: if plan.overrides.is_empty() { String::new() } else { plan.overrides.to_string() },
         seed: plan.seed,
@@ -171,6 +173,7 @@ fn take_over(study: &mut Study, earlier: &Study, folder: &Path) {
         let like = earlier.rungs.iter().find(|other| other.name == rung.name && other.is_like(rung));
         let drawn = [rung.picture(), rung.error_map()].iter().all(|file| folder.join(file).is_file());
         rung.runs = like.filter(|_| drawn).map_or_else(Vec::new, |other| other.runs.clone());
+        rung.runs.truncate(study.asked.seeds as usize);
     }
     study.complete = false;
 }

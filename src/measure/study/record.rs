@@ -39,8 +39,12 @@ pub struct Study {
 /// What is studied.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
-    /// Of the program: another one may render other pictures.
+    /// Of the program: another one may render other pictures, or need another time.
     pub version: String,
+    /// SHA-256 of its file, where the system tells which that is.
+    pub program: Option<String>,
+    /// That render: with more of them the same takes another time.
+    pub threads: usize,
     /// SHA-256 of what the scene says.
     pub scene_hash: String,
     /// Effects left out or added; empty without.
@@ -79,7 +83,7 @@ pub struct Reference {
     pub error: Option<f64>,
     pub interval: Option<[f64; 2]>,
     /// Of a rendered one: the passes after which the error would be four times its own. The ladder ends there:
-    /// with less the reference's own error would show (by 3 % of an error that is four times as large).
+    /// with less the reference's own error would show (by 3 % of noise that is four times as large).
     pub ladder_passes: Option<f64>,
 }
 
@@ -153,6 +157,8 @@ pub struct Line {
     pub error_by_seconds: Option<f64>,
     pub error_by_number: Option<f64>,
     pub seconds_by_number: Option<f64>,
+    /// The slope of the last of them alone, at most four: what stands beside theory, which is of many.
+    pub late_error_by_number: Option<f64>,
     /// Of error over the knob's number, as theory has it: the steepest and the flattest part of this scene's light.
     pub theory: Option<[f64; 2]>,
     pub sentence: String,

@@ -3,16 +3,17 @@
 //!
 //! A rendered reference is made by the program that is studied: what it gets wrong always, such as facets,
 //! three colours or its depth limit, shows in no error of the study. It has another seed than all rungs,
-//! progressive antialiasing and photons, and stops by the same rule as `--error`.
+//! progressive antialiasing and photons, and stops by the same rule as `--error`. It sends out more photons a pass, so
+//! that its blur is not that of the rungs, which would hide theirs.
 
-use super::StudyError;
 use super::record::Reference;
+use super::{Change, StudyError, ladder};
 use crate::description::{Antialiasing, Loaded, Photons, Scene};
 use crate::measure::read::{self, FileImage};
 use crate::measure::relative::LUMINANCE;
 use crate::output::{exr, hex};
-use crate::plan::{FEWEST, MOST_PASSES, Until};
-use crate::render::{self, Options, Progress};
+use crate::plan::{FEWEST, MOST_PASSES, Plan, Until};
+use crate::render::{self, Options, Progress, RenderError};
 use sha2::{Digest, Sha256};
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -24,9 +25,14 @@ const SEED: u64 = 1 << 32;
 /// The reference's error over that of the best rung, as it should be.
 pub const BETTER: f64 = 0.1;
 
-/// The same, where the time allows no more: independent errors add up by squares, so that an error four times
+/// The same, where the time allows no more: independent errors add up by squares, so that noise four times
 /// as large is found 3 % too large.
 const ENOUGH: f64 = 0.25;
+
+/// Photons of its passes over those of the rungs', and how many they become at most so. The square of the first radius
+/// falls by as much, and with it the blur.
+const MORE_PHOTONS: u32 = 4;
+const MOST_PHOTONS: u32 = 4_000_000;
 
 /// The file of a rendered reference.
 pub const FILE: &str = "reference.exr";
@@ -94,6 +100,17 @@ pub fn converging(scene: &Scene) -> Scene {
     scene
 }
 
+/// The same with more photons a pass.
+fn sharper(scene: &Scene, options: &Options) -> Result<Scene, StudyError> {
+    let plan = Plan::new(scene, &options.request()).map_err(RenderError::from)?;
+    let mut scene = scene.clone();
+    if let Ok(budget) = ladder::budget(&plan) {
+        let more = budget.count.saturating_mul(MORE_PHOTONS).min(MOST_PHOTONS);
+        Change::Photons(more.max(budget.count)).apply(&mut scene, Path::new(""));
+    }
+    Ok(scene)
+}
+
 /// A reference with what it says of itself.
 pub struct Rendered {
     pub image: FileImage,
@@ -137,6 +154,7 @@ pub fn rendered(
     if best_error.is_none() {
         options.passes = Some(0..100 * few);
     }
+    scene.scene = sharper(&scene.scene, &options)?;
     let done = render::render(&scene, &options, progress)?;
 
     let mut file = Cursor::new(Vec::new());
@@ -171,6 +189,6 @@ pub fn unchanged(files: &[(String, String)]) -> bool {
     files.iter().all(|(file, hash)| hash_of(Path::new(file)).as_ref() == Some(hash))
 }
 
-fn hash_of(path: &Path) -> Option<String> {
+pub fn hash_of(path: &Path) -> Option<String> {
     Some(hex(&Sha256::digest(std::fs::read(path).ok()?).into()))
 }

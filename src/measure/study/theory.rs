@@ -7,12 +7,12 @@ use crate::plan::{Antialiasing, Effect, PhotonEngine, Plan};
 
 /// Slopes of the RMS error over independent samples, on logarithmic axes.
 const INDEPENDENT: f64 = -0.5;
-/// The same over samples that fill the plane evenly, of edges in it (Mitchell 1996, "Consequences of stratified
-/// sampling in graphics": a variance of N^(−3/2)). Smooth pictures do better still.
+/// The same over samples that fill the plane evenly, of edges in general position (Mitchell 1996, "Consequences of
+/// stratified sampling in graphics": a variance of N^(−3/2)). Smooth pictures do better still.
 const STRATIFIED: f64 = -0.75;
 
-/// The steepest and the flattest slope of error over the knob's number; nothing where part of the error does not
-/// fall along this line.
+/// Slopes of error over the knob's number, of many: of edges in the picture, and the flattest part of its light where
+/// that is smooth. Nothing where part of the error does not fall along this line.
 pub(super) fn slopes(plan: &Plan, knob: Knob, line: &str) -> Option<[f64; 2]> {
     let progressive = plan.antialiasing == Antialiasing::Progressive;
     let mut slopes = match knob {
@@ -41,24 +41,19 @@ pub fn said([steep, flat]: [f64; 2]) -> String {
 }
 
 fn by_passes(plan: &Plan) -> Option<Vec<f64>> {
-    let mut slopes = Vec::new();
-    let lit = [Effect::Direct, Effect::Environment];
-    if lit.into_iter().any(|effect| plan.is_on(effect)) {
-        slopes.extend([STRATIFIED, INDEPENDENT]);
-    }
-    if plan.is_on(Effect::Indirect) && plan.indirect_by != IndirectBy::Photons {
-        slopes.push(INDEPENDENT);
-    }
+    // Whatever the light, pixels have edges in them.
+    let mut slopes = vec![STRATIFIED, INDEPENDENT];
     for engine in engines(plan) {
         // The bias of one map stays as it is.
         let PhotonEngine::Progressive { alpha, .. } = engine else { return None };
-        // Noise and bias of radii that shrink (Knaus & Zwicker 2011, Sec. 4): variance n^(−α), bias n^(α−1).
+        // Noise and bias of radii that shrink (Knaus & Zwicker 2011): variance n^(−α), bias n^(α−1).
         slopes.extend([-0.5 * alpha, alpha - 1.0]);
     }
-    (!slopes.is_empty()).then_some(slopes)
+    Some(slopes)
 }
 
-fn engines(plan: &Plan) -> impl Iterator<Item = PhotonEngine> {
+/// Of caustics, and of indirect light where photons bring it.
+pub fn engines(plan: &Plan) -> impl Iterator<Item = PhotonEngine> {
     let indirect = plan.is_on(Effect::Indirect) && plan.indirect_by == IndirectBy::Photons;
     let indirect = indirect.then_some(plan.indirect_photons);
     plan.photons.into_iter().chain(indirect).map(|photons| photons.engine)
