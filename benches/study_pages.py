@@ -22,9 +22,14 @@ def found(name):
     lines += ["- **%s**: nothing to change: %s." % (out["knob"].replace("_", " "), out["reason"])
               for out in study["left_out"]]
     reference, honest = study["reference"], study["honest"]
-    lines += ["", "Reference: %d passes in %.0f s, its own stated error %.2g %%. %d threads, %d seeds, %.0f s in all.%s" % (
-        reference["passes"], reference["seconds"], 100 * reference["error"], study["threads"],
-        study["asked"]["seeds"], study["asked"]["seconds"],
+    if reference["given"]:
+        truth = "Reference: `%s`, as given." % reference["file"]
+    else:
+        error = "unknown" if reference["error"] is None else "%.2g %%" % (100 * reference["error"])
+        truth = "Reference: %d passes in %.0f s, its own stated error %s." % (
+            reference["passes"], reference["seconds"], error)
+    lines += ["", "%s %d threads, %d seeds, %.0f s allowed in all.%s" % (
+        truth, study["threads"], study["asked"]["seeds"], study["asked"]["seconds"],
         " The stated 95 %% interval held the true error in %d of %d renders." % (honest["held"], honest["of"])
         if honest["of"] else "")]
     lines += ["%s." % (note[0].upper() + note[1:]) for note in study["notes"]]
