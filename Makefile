@@ -186,7 +186,8 @@ study: build
 	    --only caustics --knobs passes
 	$(STUDY) scenes/gallery/soft_shadows.ron -o study/direct --set image.width=200 --set image.height=113 \
 	    --without caustics --knobs passes,antialiasing
-	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=240 --set image.height=135
+	$(STUDY) scenes/terrarium.ron -o study/terrarium --set image.width=240 --set image.height=135 \
+	    --set 'photons=progressive(count:50000)'
 	$(STUDY) scenes/gallery/antialiasing.ron -o study/antialiasing --without caustics --seeds 2 \
 	    --knobs antialiasing,threshold,depth
 	$(STUDY) scenes/yardstick/primitives.ron -o study/primitives --set 'antialiasing=adaptive(threshold:0.05,depth:2)' \

@@ -98,7 +98,10 @@ pub fn design(
                     reach.base, passes
                 ));
             }
-            let dropped = drop_dear(&mut found, seconds / seeds);
+            // A scene's own adaptive antialiasing is what grids are compared with.
+            let own = matches!(scene.antialiasing, Antialiasing::Adaptive { .. });
+            let kept = |rung: &Rung| rung.knob == Knob::Passes || own && rung.line == "adaptive";
+            let dropped = drop_dear(&mut found, seconds / seeds, kept);
             if !dropped.is_empty() {
                 notes.push(format!("left out, as they take too long: {}", dropped.join(", ")));
             }
@@ -113,13 +116,10 @@ pub fn design(
     }
 }
 
-/// Drops the dearest rungs, not those of the ladder of passes nor the scene's adaptive antialiasing, until all of them
-/// take `seconds`. Returns their names.
-fn drop_dear(rungs: &mut Vec<Rung>, seconds: f64) -> Vec<String> {
+/// Drops the dearest rungs until all of them take `seconds`, but none that is `kept`. Returns their names.
+fn drop_dear(rungs: &mut Vec<Rung>, seconds: f64, kept: impl Fn(&Rung) -> bool) -> Vec<String> {
     let mut dropped = Vec::new();
     while rungs.iter().map(|rung| rung.predicted_seconds).sum::<f64>() > seconds {
-        // Adaptive antialiasing is what the grids are compared with.
-        let kept = |rung: &Rung| rung.knob == Knob::Passes || rung.line == "adaptive";
         let others = rungs.iter().enumerate().filter(|(_, rung)| !kept(rung));
         let dearest = others.max_by(|a, b| a.1.predicted_seconds.total_cmp(&b.1.predicted_seconds));
         let Some((at, _)) = dearest else { break };
