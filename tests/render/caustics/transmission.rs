@@ -9,16 +9,22 @@ const SUN: &str = r#""sun": directional(direction: (0, -1, 0), irradiance: 1)"#;
 /// would be 0.9216.
 const PANE: f64 = 0.923_077;
 
+/// Eight maps each: of one map the k nearest are known to 0.3 %. They are also too low by up to 1/2k, 0.8 % here, as
+/// photons are spread more evenly than the k − 1 of the normalisation takes them to be: on a lattice it would be k − 1/2.
 #[test]
 fn every_kernel_gives_the_same_energy() {
     for kernel in ["disc", "cone", "epanechnikov"] {
-        for engine in ["progressive(count: 60000, kernel: K)", "classic(count: 300000, k: 60, kernel: K)"] {
-            let photons: &'static str = engine.replace('K', kernel).leak();
+        let mean = |photons: String, passes: u32, seeds: u64| {
+            let photons: &'static str = photons.leak();
             let beneath = Beneath { photons, ..Beneath::default() };
-            let picture = beneath.shot(SUN, "", "").passes(8).render();
-            let found = mean_of(&picture, "caustic") * std::f64::consts::PI;
-            assert_close(found, PANE, 0.01);
-        }
+            let of = |seed| {
+                let picture = beneath.shot(SUN, "", "").seed(seed).passes(passes).render();
+                mean_of(&picture, "caustic") * std::f64::consts::PI
+            };
+            (0..seeds).map(of).sum::<f64>() / seeds as f64
+        };
+        assert_close(mean(format!("progressive(count: 60000, kernel: {kernel})"), 8, 1), PANE, 0.01);
+        assert_close(mean(format!("classic(count: 300000, k: 60, kernel: {kernel})"), 1, 8), PANE, 0.01);
     }
 }
 
