@@ -109,7 +109,9 @@ def fewer_passes(picture, draft, most):
     """Options for an eighth of the picture's passes, or for `most`; none where it asks for no number."""
     with open(os.path.join(ROOT, picture.scene), encoding="utf-8") as text:
         own = re.search(r"passes\s*[:=]\s*(\d+)", text.read())
-    asked = re.search(r"--passes (\d+)", " ".join(picture.options)) or own
+    # Where an error is asked for, passes are only the most that it may take.
+    bound = draft and "--error" in picture.options
+    asked = (None if bound else re.search(r"--passes (\d+)", " ".join(picture.options))) or own
     if not asked or not (draft or most):
         return []
     return ["--passes", str(max(4, int(asked[1]) // 8) if draft else min(most, int(asked[1])))]
