@@ -150,6 +150,12 @@ impl Plan {
         self.decisions.iter().any(|d| d.effect == effect && d.on)
     }
 
+    /// The budgets of photons that are asked for: of caustics, and of indirect light where photons are to bring it.
+    pub fn photon_budgets(&self) -> impl Iterator<Item = PhotonBudget> + use<> {
+        let indirect = self.is_on(Effect::Indirect) && self.indirect_by == IndirectBy::Photons;
+        self.photons.into_iter().chain(indirect.then_some(self.indirect_photons))
+    }
+
     /// Whether an override leaves it out.
     pub fn leaves_out(&self, effect: Effect) -> bool {
         self.overrides.leaves_out(effect)

@@ -1,8 +1,7 @@
 //! What a more accurate picture would cost.
 
-use crate::description::IndirectBy;
 use crate::film::Accuracy;
-use crate::plan::{Antialiasing, Effect, PhotonEngine, Plan};
+use crate::plan::{Antialiasing, PhotonEngine, Plan};
 use serde::Serialize;
 
 /// The price of half the error, at the rates at which it has fallen so far.
@@ -54,10 +53,7 @@ pub fn not_seen(plan: &Plan) -> Vec<String> {
         Antialiasing::Adaptive { .. } => Some("adaptive samples always begin at the same corners"),
     };
     list.extend(samples.map(str::to_owned));
-    let by_photons = plan.is_on(Effect::Indirect) && plan.indirect_by == IndirectBy::Photons;
-    let indirect = by_photons.then_some(plan.indirect_photons);
-    let mut budgets = plan.photons.into_iter().chain(indirect);
-    if budgets.any(|budget| matches!(budget.engine, PhotonEngine::Classic { .. })) {
+    if plan.photon_budgets().any(|budget| matches!(budget.engine, PhotonEngine::Classic { .. })) {
         list.push("all passes gather the same photons".to_owned());
     }
     if plan.bounces != 0 && plan.bounces != u32::MAX {

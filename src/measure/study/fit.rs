@@ -10,11 +10,14 @@ pub fn spread(values: impl IntoIterator<Item = f64>) -> Option<[f64; 3]> {
     Some([median, first, last])
 }
 
+fn has_logarithms(point: &[f64; 2]) -> bool {
+    point.iter().all(|v| v.is_finite() && *v > 0.0)
+}
+
 /// The slope of ln y over ln x by least squares: p where y = c·x^p. Points with a value that is not above 0 are left
 /// out. `None` of fewer than two different x.
 pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
-    let sound = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite() && *v > 0.0);
-    let logs: Vec<[f64; 2]> = points.iter().filter(sound).map(|p| p.map(libm::log)).collect();
+    let logs: Vec<[f64; 2]> = points.iter().filter(|p| has_logarithms(p)).map(|p| p.map(libm::log)).collect();
     let n = logs.len() as f64;
     let mean = |i: usize| logs.iter().map(|p| p[i]).sum::<f64>() / n;
     let (mx, my) = (mean(0), mean(1));
@@ -33,8 +36,7 @@ pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
 /// The x at which a line through points, straight between neighbours on logarithmic axes, has this y; `None`
 /// where it never has.
 pub fn reaches(points: &[[f64; 2]], y: f64) -> Option<f64> {
-    let sound = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite() && *v > 0.0);
-    let mut points: Vec<[f64; 2]> = points.iter().filter(sound).copied().collect();
+    let mut points: Vec<[f64; 2]> = points.iter().filter(|p| has_logarithms(p)).copied().collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let within = |pair: &&[[f64; 2]]| (pair[0][1] - y) * (pair[1][1] - y) <= 0.0;
     let pair = points.windows(2).find(within)?;

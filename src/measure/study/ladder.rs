@@ -3,7 +3,7 @@
 use super::change::{has_samples, spelt};
 use super::record::{LeftOut, Rung};
 use super::{Change, Knob, sphere_mesh};
-use crate::description::{Antialiasing, IndirectBy, Scene};
+use crate::description::{Antialiasing, Scene};
 use crate::plan::{Effect, PhotonBudget, PhotonEngine, Plan};
 
 /// How far the ladders go.
@@ -98,14 +98,10 @@ fn passes(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String>
 
 /// The budget of photons that runs, of caustics or of indirect light; or why there is none.
 pub fn budget(plan: &Plan) -> Result<PhotonBudget, String> {
-    if let Some(budget) = plan.photons {
-        return Ok(budget);
-    }
-    if plan.is_on(Effect::Indirect) && plan.indirect_by == IndirectBy::Photons {
-        return Ok(plan.indirect_photons);
-    }
-    let why = plan.decisions.iter().find(|decision| decision.effect == Effect::Caustics);
-    Err(format!("no photons are sent: {}", why.map_or_else(String::new, ToString::to_string)))
+    plan.photon_budgets().next().ok_or_else(|| {
+        let why = plan.decisions.iter().find(|decision| decision.effect == Effect::Caustics);
+        format!("no photons are sent: {}", why.map_or_else(String::new, ToString::to_string))
+    })
 }
 
 fn photons(scene: &Scene, plan: &Plan, reach: Reach) -> Result<Vec<Rung>, String> {

@@ -3,7 +3,7 @@
 use super::record::{Honest, Line, Rung, Study, Summary};
 use super::table::{figures, percent, signed};
 use super::{Change, Knob, reaches, slope, theory};
-use crate::plan::{Antialiasing, PhotonEngine, Plan};
+use crate::plan::{Antialiasing, PhotonBudget, PhotonEngine, Plan};
 
 /// Logarithms of factors that are none: of error, and of time, which is noisy.
 const NOTHING: f64 = 0.01;
@@ -44,10 +44,10 @@ fn shows_its_error(rung: &Rung, plan: &Plan) -> bool {
         Some(Change::Antialiasing(kind)) => kind,
         _ => plan.antialiasing,
     };
-    let classic = |engine| matches!(engine, PhotonEngine::Classic { .. });
+    let classic = |budget: PhotonBudget| matches!(budget.engine, PhotonEngine::Classic { .. });
     antialiasing == Antialiasing::Progressive
         && !matches!(rung.change, Some(Change::Mesh(_)))
-        && !theory::engines(plan).any(classic)
+        && !plan.photon_budgets().any(classic)
 }
 
 type Point<'a> = (&'a Rung, &'a Summary);

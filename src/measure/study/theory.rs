@@ -2,8 +2,7 @@
 
 use super::Knob;
 use super::table::signed;
-use crate::description::IndirectBy;
-use crate::plan::{Antialiasing, Effect, PhotonEngine, Plan};
+use crate::plan::{Antialiasing, PhotonEngine, Plan};
 
 /// Slopes of the RMS error over independent samples, on logarithmic axes.
 const INDEPENDENT: f64 = -0.5;
@@ -19,7 +18,7 @@ pub(super) fn slopes(plan: &Plan, knob: Knob, line: &str) -> Option<[f64; 2]> {
         Knob::Passes if progressive => by_passes(plan)?,
         Knob::Antialiasing if line == "progressive" => by_passes(plan)?,
         // Each picture is one pass, with the photons of one pass.
-        Knob::Antialiasing if line == "grid" && engines(plan).next().is_none() => {
+        Knob::Antialiasing if line == "grid" && plan.photon_budgets().next().is_none() => {
             vec![STRATIFIED, INDEPENDENT]
         }
         _ => return None,
@@ -43,20 +42,13 @@ pub fn said([steep, flat]: [f64; 2]) -> String {
 fn by_passes(plan: &Plan) -> Option<Vec<f64>> {
     // Whatever the light, pixels have edges in them.
     let mut slopes = vec![STRATIFIED, INDEPENDENT];
-    for engine in engines(plan) {
+    for budget in plan.photon_budgets() {
         // The bias of one map stays as it is.
-        let PhotonEngine::Progressive { alpha, .. } = engine else { return None };
+        let PhotonEngine::Progressive { alpha, .. } = budget.engine else { return None };
         // Noise and bias of radii that shrink (Knaus & Zwicker 2011): variance n^(−α), bias n^(α−1).
         slopes.extend([-0.5 * alpha, alpha - 1.0]);
     }
     Some(slopes)
-}
-
-/// Of caustics, and of indirect light where photons bring it.
-pub fn engines(plan: &Plan) -> impl Iterator<Item = PhotonEngine> {
-    let indirect = plan.is_on(Effect::Indirect) && plan.indirect_by == IndirectBy::Photons;
-    let indirect = indirect.then_some(plan.indirect_photons);
-    plan.photons.into_iter().chain(indirect).map(|photons| photons.engine)
 }
 
 #[cfg(test)]
