@@ -1,6 +1,6 @@
 //! What keeping the statistics of the error costs: renders with and without them, in turns.
 //!
-//! The image is the same. One pixel in 64 is looked at closely; of images smaller than these, more. Seconds of tracing and of the photons beside it, the best of each, on one thread.
+//! The image is the same. One pixel in 256 is looked at closely, of images smaller than half a megapixel more. Seconds of tracing and of the photons beside it, the best of each, on one thread.
 //! `cargo bench --bench statistics`
 
 use std::path::Path;

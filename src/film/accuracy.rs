@@ -3,12 +3,11 @@
 //! The error is E = √ mean((I−R)² / (R² + 0.31·m²)) over pixels and channels, m the mean luminance: relative,
 //! and the same for any exposure. It has two parts.
 //!
-//! *Noise.* Photons of different passes are independent: the squared error of their mean over n passes is
-//! V(n) = s²/n, s² the variance from pass to pass. Samples in a pixel are well distributed over the passes and
-//! better than that, by laws ([`law`]) that are fitted to how much the mean changed when passes were doubled: the
-//! mean of the first half of them and the mean of all differ by D with E[D²] = V(n/2) − V(n), whatever the passes
-//! have in common, so long as each part of them is as good as any other of its size. Passes beyond a power of
-//! two begin a part of their own, independent of the others until it is full.
+//! *Noise.* The squared error of the mean over n passes, V(n), would be s²/n of independent ones, s² the variance
+//! from pass to pass. Samples in a pixel are well distributed over the passes and better than that, by rates ([`law`])
+//! that are told from how much the mean changed when passes were doubled: the mean of the first half of them and the
+//! mean of all differ by D with E[D²] = V(n/2) − V(n), whatever the passes have in common, so long as each part of
+//! them is as good as any other of its size.
 //!
 //! *Bias.* The blur of the density estimate goes as the square of its radius where light is smooth (Silverman
 //! 1986, 4.3), so the estimates at √2·r and r differ by as much, those at r and r/√2 by half of it. Products of two
@@ -74,7 +73,7 @@ pub struct Part {
 /// 0.01/0.18²: see the module's text.
 const FLOOR: f64 = 0.31;
 
-/// The truth may lie as far from the middle of the laws as this times half of what they differ.
+/// The truth may lie as far from the middle of the rates as this times half of what they differ.
 const BESIDE: f64 = 1.2;
 
 /// What is added for light that chance finds, photons' and that of many bounces, by its share of the error: without it
@@ -133,15 +132,11 @@ impl Accuracy {
             .filter(|log| log.is_finite())
             .collect();
         let groups = STUDENT * jackknife(&logs);
-        let model = match passes {
-            2..8 => 0.45,
-            8..16 => 0.3,
-            _ => 0.12,
-        };
+        let model = law::beyond(passes);
         // Bright light that is found seldom is in the truth before it is in what was seen.
         let found = |part: &&Part| matches!(part.effect, "caustics" | "indirect");
         let rare = RARE * accuracy.by_effect.iter().filter(found).map(|part| part.share).sum::<f64>();
-        // What lies beside all laws that noise may follow.
+        // What lies beside all rates that noise may fall at.
         let doubt = BESIDE * classes.doubt();
         let half = (chance * chance + groups * groups + model * model + rare * rare + doubt * doubt).sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];

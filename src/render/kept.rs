@@ -15,7 +15,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// Of the form of partial images; raised with every change of it.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// What all parts of one image have in common, beside its provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -23,7 +23,7 @@ pub(super) struct Stop {
     slowest_pass: Duration,
     check_at: u32,
     resting: Option<Resting>,
-    /// Passes after which the error is likely to be reached.
+    /// Passes after which the error is likely to be found to be reached.
     likely: Option<u32>,
 }
 
@@ -131,8 +131,8 @@ impl Stop {
             return false;
         }
         let likely = accuracy.passes_for(target).ceil().min(f64::from(u32::MAX / 4)) as u32;
-        self.likely = Some(likely.max(passes + 1));
         self.check_at = likely.clamp(passes + passes.div_ceil(2), 4 * passes);
+        self.likely = Some(likely.max(self.check_at));
         false
     }
 }

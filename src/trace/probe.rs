@@ -18,18 +18,22 @@ pub struct Probes {
 /// Probes that an image has at least, should it have as many pixels.
 const LEAST: u64 = 4096;
 
+/// The largest square that one probe stands for, of images with fewer than [`LARGE`] pixels.
+const WIDE: u32 = 8;
+
+/// The square of an image of so many pixels, which has [`LEAST`]/2 probes then: 1.2 bytes a pixel.
+const WIDEST: u32 = 16;
+const LARGE: u64 = 512_000;
+
 /// Rec. 709.
 pub const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
-/// The largest square that one probe stands for.
-const WIDEST: u32 = 8;
-
 impl Probes {
-    /// Of an image of so many pixels: one in 64, and more of a small one.
+    /// Of an image of so many pixels: one in 256, and more of a small one.
     pub fn of(width: u32, height: u32) -> Probes {
         let pixels = u64::from(width) * u64::from(height);
-        let stride = (1..=WIDEST).rev().find(|s| pixels / u64::from(s * s) >= LEAST).unwrap_or(1);
-        Probes { stride }
+        let wide = || (1..=WIDE).rev().find(|s| pixels / u64::from(s * s) >= LEAST).unwrap_or(1);
+        Probes { stride: if pixels < LARGE { wide() } else { WIDEST } }
     }
 
     /// Whether a pixel is one.
@@ -148,10 +152,8 @@ pub struct Probe {
     pub y: u32,
     /// Passes by part.
     counts: [u32; 3],
-    /// Sums of the rest by part.
-    rest: [DVec3; 3],
-    /// Of caustic and of indirect light.
-    photons: [DVec3; 2],
+    /// Sums by kind and part.
+    sums: [[DVec3; 3]; 3],
     /// Σ (x − mean)² over passes by kind, by Welford's recurrence.
     squares: [Vec3; 3],
     /// Of all light: the luminance of the brightest pass.
@@ -165,7 +167,7 @@ pub struct Probe {
     paired: u32,
 }
 
-record!(Probe, x, y, counts, rest, photons, squares, brightest, bias, looked, pairs, paired);
+record!(Probe, x, y, counts, sums, squares, brightest, bias, looked, pairs, paired);
 
 impl Probe {
     pub(super) fn add(&mut self, x: u32, y: u32, value: &PixelValue, part: Option<Part>) {
@@ -181,10 +183,8 @@ impl Probe {
         for (kind, light) in Kind::ALL.into_iter().zip([rest, value.caustic, value.indirect]) {
             let off = if n == 0.0 { DVec3::ZERO } else { light - self.mean(kind) };
             self.squares[kind as usize] += (off * off * (n / (n + 1.0))).as_vec3();
+            self.sums[kind as usize][part] += light;
         }
-        self.rest[part] += rest;
-        self.photons[0] += value.caustic;
-        self.photons[1] += value.indirect;
         self.counts[part] += 1;
         if let Some(bias) = value.bias {
             let half = part / 2;
@@ -202,8 +202,7 @@ impl Probe {
 
     /// All passes so far become the first half.
     fn close(&mut self) {
-        let [first, second, later] = self.rest;
-        self.rest = [first + second, later, DVec3::ZERO];
+        self.sums = self.sums.map(|[first, second, later]| [first + second, later, DVec3::ZERO]);
         let [first, second, later] = self.counts;
         self.counts = [first + second, later, 0];
         let [first, later] = self.bias;
@@ -225,11 +224,10 @@ impl Probe {
         }
         (self.x, self.y) = (other.x, other.y);
         for part in 0..3 {
-            self.rest[part] += other.rest[part];
+            (0..3).for_each(|kind| self.sums[kind][part] += other.sums[kind][part]);
             self.counts[part] += other.counts[part];
         }
         for i in 0..2 {
-            self.photons[i] += other.photons[i];
             self.looked[i] += other.looked[i];
             self.bias[i] = added(self.bias[i], other.bias[i]);
         }
@@ -250,12 +248,7 @@ impl Probe {
 
     /// The mean of a kind of light over all passes.
     pub fn mean(&self, kind: Kind) -> DVec3 {
-        let sum = match kind {
-            Kind::Rest => self.rest.iter().sum(),
-            Kind::Caustic => self.photons[0],
-            Kind::Indirect => self.photons[1],
-        };
-        sum / f64::from(self.passes().max(1))
+        self.sums[kind as usize].iter().sum::<DVec3>() / f64::from(self.passes().max(1))
     }
 
     /// Of all light.
@@ -275,20 +268,24 @@ impl Probe {
         self.squares[kind as usize].as_dvec3() / f64::from(self.passes().max(2) - 1)
     }
 
-    /// Of the rest: (mean of the first half − mean of all)².
-    pub fn change(&self) -> DVec3 {
-        let half = (self.rest[0] + self.rest[1]) / f64::from(self.first_half().max(1));
-        let change = self.mean(Kind::Rest) - half;
+    /// The mean of a kind of light over the first half.
+    fn half(&self, kind: Kind) -> DVec3 {
+        let [first, second, _] = self.sums[kind as usize];
+        (first + second) / f64::from(self.first_half().max(1))
+    }
+
+    /// (Mean of the first half − mean of all)².
+    pub fn change(&self, kind: Kind) -> DVec3 {
+        let change = self.mean(kind) - self.half(kind);
         change * change
     }
 
     /// The same of the first half and its own first half.
-    pub fn change_before(&self) -> DVec3 {
+    pub fn change_before(&self, kind: Kind) -> DVec3 {
         if self.counts[0] == 0 {
             return DVec3::ZERO;
         }
-        let half = (self.rest[0] + self.rest[1]) / f64::from(self.first_half());
-        let change = self.rest[0] / f64::from(self.counts[0]) - half;
+        let change = self.sums[kind as usize][0] / f64::from(self.counts[0]) - self.half(kind);
         change * change
     }
 
@@ -315,7 +312,7 @@ mod tests {
 
     #[test]
     fn every_whole_square_has_one_probe() {
-        for (width, height) in [(800, 600), (300, 300), (40, 30)] {
+        for (width, height) in [(1000, 600), (800, 600), (300, 300), (40, 30)] {
             let probes = Probes::of(width, height);
             let s = probes.stride;
             for (cx, cy) in (0..width / s).flat_map(|cx| (0..height / s).map(move |cy| (cx, cy))) {
@@ -344,14 +341,14 @@ mod tests {
     fn parts_are_powers_of_two() {
         let four = probe([1.0, 3.0, 4.0, 6.0]);
         assert_eq!((four.passes(), four.first_half()), (4, 2));
-        assert_eq!(four.change().x, 1.5 * 1.5);
-        assert_eq!(four.change_before().x, 1.0);
+        assert_eq!(four.change(Kind::Rest).x, 1.5 * 1.5);
+        assert_eq!(four.change_before(Kind::Rest).x, 1.0);
         assert_eq!(four.biases(Look::Wide).map(|b| b.map(|[caustic, _]| caustic.x)), Some([2.0, 5.0]));
         assert!((four.variance(Kind::Rest).x - 13.0 / 3.0).abs() < 1e-6);
         let six = probe([1.0, 3.0, 4.0, 6.0, 0.0, 1.0]);
         assert_eq!((six.passes(), six.first_half()), (6, 4));
-        assert!((six.change().x - 1.0).abs() < 1e-12);
-        assert_eq!(six.change_before().x, 1.5 * 1.5);
+        assert!((six.change(Kind::Rest).x - 1.0).abs() < 1e-12);
+        assert_eq!(six.change_before(Kind::Rest).x, 1.5 * 1.5);
     }
 
     #[test]
@@ -373,8 +370,8 @@ mod tests {
             }
             assert_eq!((joined.counts, joined.looked), (grown.counts, grown.looked), "{n}");
             let same = |a: DVec3, b: DVec3| assert!((a - b).abs().max_element() < 1e-6, "{n}: {a} {b}");
-            same(joined.change(), grown.change());
-            same(joined.change_before(), grown.change_before());
+            same(joined.change(Kind::Rest), grown.change(Kind::Rest));
+            same(joined.change_before(Kind::Rest), grown.change_before(Kind::Rest));
             same(joined.variance(Kind::Rest), grown.variance(Kind::Rest));
             same(DVec3::splat(joined.others()), DVec3::splat(grown.others()));
         }

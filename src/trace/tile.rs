@@ -76,11 +76,20 @@ struct PhotonSums {
     density: Exact,
 }
 
-/// What a pixel keeps for the picture's error.
-#[derive(Clone, Copy, Debug, Default)]
-struct Spread {
-    squares: Vec3,
-    brightest: f32,
+/// The luminance of a pixel's brightest pass in the upper half of a single's bits, rounded up: 1/128 of it too
+/// bright at most, and that of the brightest of many is the largest of theirs, in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Brightest(u16);
+
+impl Brightest {
+    /// Of a luminance; below 0, as of NaN, it is that of black.
+    fn of(luminance: f64) -> Brightest {
+        Brightest(((luminance.max(0.0).min(f64::from(f32::MAX)) as f32).to_bits().div_ceil(1 << 16)) as u16)
+    }
+
+    fn luminance(self) -> f64 {
+        f64::from(f32::from_bits(u32::from(self.0) << 16))
+    }
 }
 
 /// A pixel's mean, and how far it may be off.
@@ -116,8 +125,9 @@ pub struct Tile {
     /// Σ (x − mean)², by Welford's recurrence.
     squares: Vec<DVec3>,
     photons: Vec<PhotonSums>,
-    /// For the picture's error: Σ (x − mean)² by channel, and the luminance of the brightest pass.
-    spread: Vec<Spread>,
+    /// For the picture's error: Σ (x − mean)² by channel, and the brightest pass.
+    spread: Vec<Vec3>,
+    brightest: Vec<Brightest>,
     /// Sums of the estimated bias, and of the passes that looked at it.
     bias: Vec<(Exact, u32)>,
     /// One a square; empty where a square's probe is another tile's.
@@ -153,7 +163,8 @@ impl Tile {
             first: vec![FirstHitSums::default(); if_kept(layers.first_hit)],
             squares: vec![DVec3::ZERO; if_kept(layers.variance)],
             photons: vec![PhotonSums::default(); if_kept(layers.photons)],
-            spread: vec![Spread::default(); if_kept(layers.probes.is_some())],
+            spread: vec![Vec3::ZERO; if_kept(layers.probes.is_some())],
+            brightest: vec![Brightest::default(); if_kept(layers.probes.is_some())],
             bias: vec![(Exact::default(), 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
@@ -199,9 +210,9 @@ impl Tile {
             value.radiance - self.radiance[i].about() * (1.0 / before)
         };
         let square = off * off * (before / (before + 1.0));
-        if let Some(spread) = self.spread.get_mut(i) {
-            spread.squares += square.as_vec3();
-            spread.brightest = spread.brightest.max(value.radiance.dot(LUMINANCE) as f32);
+        if let (Some(spread), Some(brightest)) = (self.spread.get_mut(i), self.brightest.get_mut(i)) {
+            *spread += square.as_vec3();
+            *brightest = (*brightest).max(Brightest::of(value.radiance.dot(LUMINANCE)));
         }
         self.radiance[i].add(value.radiance);
         self.passes[i] += 1;
@@ -293,7 +304,7 @@ impl Tile {
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
             + self.photons.len() * size_of::<PhotonSums>()
-            + self.spread.len() * size_of::<Spread>()
+            + self.spread.len() * (size_of::<Vec3>() + size_of::<Brightest>())
             + self.bias.len() * size_of::<(Exact, u32)>()
             + self.probes.len() * size_of::<Probe>()
     }
@@ -310,16 +321,16 @@ impl Tile {
 
     /// Of pixels with two passes or more.
     pub fn measured(&self) -> impl Iterator<Item = Measured> {
-        let of = |(i, spread): (usize, &Spread)| {
+        let of = |(i, (squares, brightest)): (usize, (&Vec3, &Brightest))| {
             let passes = self.passes[i];
             let sum = self.radiance[i].value();
             let mean = sum / f64::from(passes);
-            let others = (sum.dot(LUMINANCE) - f64::from(spread.brightest)) / f64::from(passes - 1);
-            let variance = spread.squares.as_dvec3() / f64::from(passes - 1);
+            let others = (sum.dot(LUMINANCE) - brightest.luminance()) / f64::from(passes - 1);
+            let variance = squares.as_dvec3() / f64::from(passes - 1);
             let (x, y) = (self.x + i as u32 % self.width, self.y + i as u32 / self.width);
             Measured { x, y, passes, mean, variance, others }
         };
-        self.spread.iter().enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
+        self.spread.iter().zip(&self.brightest).enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
     }
 
     /// The value of a layer at a pixel given in image coordinates; `most` is the largest number of

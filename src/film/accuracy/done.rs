@@ -18,8 +18,8 @@ struct Block {
 /// Lets the blocks rest whose own squared error is at most `enough`, and that of all eight around them: what
 /// begins in a block may just not have been seen in the next.
 ///
-/// `gain`: squared noise over that of independent passes. The bias of a block is that of the nine around it,
-/// as few probes lie in one.
+/// `gain`: squared noise over that of independent passes. The bias of a block is that of the 25 around it, as
+/// one probe lies in four.
 pub(in crate::film) fn done<'a>(
     pixels: impl Iterator<Item = Measured>,
     probes: impl Iterator<Item = &'a Probe>,
@@ -45,20 +45,20 @@ pub(in crate::film) fn done<'a>(
         block.probes += 1.0;
         block.bias += (squared * weight(probe.mean_of_all(), floor)).element_sum() / 3.0;
     }
-    let around = |i: usize| {
+    let around = |i: usize, far: u32| {
         let (x, y) = (i as u32 % across, i as u32 / across);
-        let near = |c: u32, end: u32| c.saturating_sub(1)..(c + 2).min(end);
+        let near = move |c: u32, end: u32| c.saturating_sub(far)..(c + far + 1).min(end);
         near(y, down).flat_map(move |v| near(x, across).map(move |u| (v * across + u) as usize))
     };
     let accurate: Vec<bool> = (0..blocks.len())
         .map(|i| {
             let (probes, bias) =
-                around(i).fold((0.0, 0.0), |(n, sum), k| (n + blocks[k].probes, sum + blocks[k].bias));
+                around(i, 2).fold((0.0, 0.0), |(n, sum), k| (n + blocks[k].probes, sum + blocks[k].bias));
             let bias = (bias / f64::max(probes, 1.0)).max(0.0);
             blocks[i].noise / blocks[i].pixels.max(1.0) + bias <= enough
         })
         .collect();
     let settled: Vec<usize> =
-        (0..blocks.len()).filter(|&i| around(i).all(|k| accurate[k] || resting.blocks()[k])).collect();
+        (0..blocks.len()).filter(|&i| around(i, 1).all(|k| accurate[k] || resting.blocks()[k])).collect();
     settled.into_iter().for_each(|i| resting.rest(i));
 }

@@ -12,8 +12,8 @@ pub(super) struct Sums {
     pub count: f64,
     /// Variances from pass to pass, by kind.
     variance: [f64; 3],
-    /// Of the rest: the last change of the mean, and the one before.
-    changes: [f64; 2],
+    /// By kind: the last change of the mean, and the one before.
+    changes: [[f64; 2]; 3],
     /// Products of two halves' biases by [`Look`], of caustic, indirect and both; and how many.
     bias: [[f64; 3]; 2],
     biased: [f64; 2],
@@ -29,9 +29,10 @@ impl Sums {
         self.count += 1.0;
         for kind in Kind::ALL {
             self.variance[kind as usize] += relative(probe.variance(kind));
+            let [last, before] = &mut self.changes[kind as usize];
+            *last += relative(probe.change(kind));
+            *before += relative(probe.change_before(kind));
         }
-        self.changes[0] += relative(probe.change());
-        self.changes[1] += relative(probe.change_before());
         for look in [Look::Wide, Look::Narrow] {
             if let Some([[caustic, indirect], [caustic_later, indirect_later]]) = probe.biases(look) {
                 self.biased[look as usize] += 1.0;
@@ -53,7 +54,7 @@ impl Sums {
         let add =
             |mine: &mut [f64], theirs: &[f64]| mine.iter_mut().zip(theirs).for_each(|(a, b)| *a += times * b);
         add(&mut sum.variance, &other.variance);
-        add(&mut sum.changes, &other.changes);
+        (0..3).for_each(|kind| add(&mut sum.changes[kind], &other.changes[kind]));
         add(&mut sum.bias[0], &other.bias[0]);
         add(&mut sum.bias[1], &other.bias[1]);
         add(&mut sum.biased, &other.biased);
@@ -65,14 +66,14 @@ impl Sums {
     /// The noise of a kind of light in the mean of all passes.
     fn noise(&self, kind: Kind, part: u32, passes: u32) -> Noise {
         let s2 = self.variance[kind as usize] / self.count.max(1.0);
-        if kind != Kind::Rest {
-            return Noise { squared: s2 / f64::from(passes), rate: 1.0, doubt: 0.0 };
-        }
         if s2 <= 0.0 {
             return Noise { squared: 0.0, rate: 1.0, doubt: 0.0 };
         }
-        let changes = self.changes.map(|change| change / (s2 * self.count.max(1.0)));
-        let fits = Fits::of(changes, part, passes);
+        let changes = self.changes[kind as usize].map(|change| change / (s2 * self.count.max(1.0)));
+        let fits = match kind {
+            Kind::Rest => Fits::of(changes, part, passes),
+            Kind::Caustic | Kind::Indirect => Fits::of_photons(changes, part, passes),
+        };
         Noise { squared: s2 * fits.middle(), rate: fits.rate, doubt: fits.doubt() }
     }
 

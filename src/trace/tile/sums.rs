@@ -1,6 +1,6 @@
 //! A tile's sums to words and back, and the sums of two tiles together.
 
-use super::{FirstHitSums, PhotonSums, SplitSums, Spread, Tile};
+use super::{Brightest, FirstHitSums, PhotonSums, SplitSums, Tile};
 use crate::math::DVec3;
 use crate::trace::Probe;
 use crate::trace::words::{Reader, Record, Words, record};
@@ -8,7 +8,16 @@ use crate::trace::words::{Reader, Record, Words, record};
 record!(FirstHitSums, albedo, normal, position, depth, object);
 record!(SplitSums, direct, reflection, refraction, caustic, indirect);
 record!(PhotonSums, dots, density);
-record!(Spread, squares, brightest);
+
+impl Record for Brightest {
+    fn put(&self, words: &mut Words) {
+        u32::from(self.0).put(words);
+    }
+
+    fn take(words: &mut Reader) -> Option<Brightest> {
+        u16::try_from(u32::take(words)?).ok().map(Brightest)
+    }
+}
 
 impl FirstHitSums {
     fn join(&mut self, other: &FirstHitSums) {
@@ -41,6 +50,7 @@ impl Tile {
         put(&self.samples, i, words);
         put(&self.radiance, i, words);
         put(&self.spread, i, words);
+        put(&self.brightest, i, words);
         put(&self.split, i, words);
         put(&self.first, i, words);
         put(&self.squares, i, words);
@@ -58,6 +68,7 @@ impl Tile {
             && take(&mut self.samples, i, words)
             && take(&mut self.radiance, i, words)
             && take(&mut self.spread, i, words)
+            && take(&mut self.brightest, i, words)
             && take(&mut self.split, i, words)
             && take(&mut self.first, i, words)
             && take(&mut self.squares, i, words)
@@ -112,8 +123,10 @@ impl Tile {
                 *squares += *more + between;
             }
             if let (Some(spread), Some(more)) = (self.spread.get_mut(i), other.spread.get(i)) {
-                spread.squares += more.squares + between.as_vec3();
-                spread.brightest = spread.brightest.max(more.brightest);
+                *spread += *more + between.as_vec3();
+            }
+            if let (Some(brightest), Some(more)) = (self.brightest.get_mut(i), other.brightest.get(i)) {
+                *brightest = (*brightest).max(*more);
             }
             if let (Some(photons), Some(more)) = (self.photons.get_mut(i), other.photons.get(i)) {
                 photons.density.join(&more.density);
