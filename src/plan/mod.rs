@@ -117,7 +117,7 @@ impl Plan {
             seed: request.seed.unwrap_or(scene.render.seed),
             max_depth: scene.render.max_depth,
             // One sample of many averages its chances out; one of few must not show them.
-            split_weight: if progressive { 0.1 } else { 1.0 / 256.0 },
+            split_weight: if progressive { 0.01 } else { 1.0 / 256.0 },
             photons: photons::budget(scene).filter(|_| caustics),
             indirect_by: scene.indirect_by,
             indirect_photons: photons::indirect(scene),
