@@ -80,6 +80,10 @@ const BESIDE: f64 = 1.2;
 /// the intervals of a caustic after 64 passes held the truth in 8 of 12 renders, with it in 11.
 const RARE: f64 = 0.2;
 
+/// What is added for pixels that a single pass has made more than half of, glints of the sun in glass for instance, by
+/// their share of the error: without it the intervals of such a scene held 32 of 40 renders.
+const SINGLE: f64 = 0.8;
+
 /// Student's t for 95 % and one less than the groups that probes are divided into.
 const STUDENT: f64 = 2.131;
 
@@ -138,7 +142,10 @@ impl Accuracy {
         let rare = RARE * accuracy.by_effect.iter().filter(found).map(|part| part.share).sum::<f64>();
         // What lies beside all rates that noise may fall at.
         let doubt = BESIDE * classes.doubt();
-        let half = (chance * chance + groups * groups + model * model + rare * rare + doubt * doubt).sqrt();
+        // What one pass has found is worth nothing, or several times as much.
+        let single = SINGLE * classes.single();
+        let parts = [chance, groups, model, rare, doubt, single];
+        let half = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         accuracy.interval = [e * libm::exp(-half), e * libm::exp(half)];
         Some(accuracy)
     }

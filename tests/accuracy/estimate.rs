@@ -3,7 +3,7 @@
 use super::Dice;
 use terrarium::film::{Accuracy, Film, Rates};
 use terrarium::math::DVec3;
-use terrarium::trace::{Layers, PixelValue, Probes};
+use terrarium::trace::{Layers, PixelValue, Probes, Tile};
 
 const SIDE: u32 = 48;
 
@@ -40,6 +40,20 @@ fn true_error(film: &Film) -> f64 {
         }
     }
     f64::sqrt(sum / count)
+}
+
+/// What is kept for the error is at most 16 bytes a pixel, from half a megapixel on; of smaller pictures 10.4 MB.
+#[test]
+fn sixteen_bytes_a_pixel_are_kept() {
+    for (width, height) in [(64, 64), (640, 480), (800, 639), (960, 540), (1920, 1080)] {
+        let kept = Layers { probes: Some(Probes::of(width, height)), ..Layers::default() };
+        let bytes = Tile::bytes_per_pixel(kept) - Tile::bytes_per_pixel(Layers::default());
+        let pixels = f64::from(width * height);
+        assert!(
+            bytes <= 16.0 || pixels < 512_000.0 && bytes * pixels < 10.4e6,
+            "{width} × {height}: {bytes}"
+        );
+    }
 }
 
 /// Independent passes of standard deviation σ: E = σ/√n/√1.31, for any number of passes.

@@ -47,7 +47,8 @@ impl Classes {
         let mut classes: BTreeMap<u32, Class> = BTreeMap::new();
         for pixel in pixels {
             let class = classes.entry(pixel.passes).or_default();
-            class.independent.add(relative(&pixel, picture, floor));
+            let single = picture.single(pixel.x, pixel.y, pixel.others);
+            class.independent.add(relative(&pixel, picture, floor), single);
         }
         let mut probes: Vec<&Probe> = probes.filter(|probe| probe.passes() > 1).collect();
         // A fixed order, whatever the tiles, so that sums have the same bits.
@@ -121,6 +122,15 @@ impl Classes {
             self.classes.values().any(|c| c.groups.get(*group).is_some_and(|g| g.count > 0.0))
         };
         (0..GROUPS as usize).filter(has)
+    }
+
+    /// The share of the pixels' parts that single passes have made.
+    pub fn single(&self) -> f64 {
+        let sum = |of: fn(&Independent) -> f64| -> f64 {
+            self.classes.iter().map(|(n, class)| self.gain(*n, class, None) * of(&class.independent)).sum()
+        };
+        let all = sum(Independent::sum);
+        if all > 0.0 { sum(Independent::single) / all } else { 0.0 }
     }
 
     /// √Σt²/Σt of the pixels' parts t: how much their sum hangs on few of them.

@@ -44,7 +44,7 @@ pub(super) fn beyond(passes: u32) -> f64 {
 pub(super) struct Fits {
     least: f64,
     most: f64,
-    /// At which it will fall.
+    /// At which it will fall; of photons, were their radius to stay.
     pub rate: f64,
 }
 
@@ -64,12 +64,12 @@ impl Fits {
     }
 
     /// The same of light whose passes are independent but for where in a pixel they look, in which they are well
-    /// distributed: photons' noise falls as that of independent passes, the other part fast, so that it is little of
-    /// the last change and the rate of that is 1.
+    /// distributed: photons' noise falls at the rate 1; where the other part is most of it, at the local one.
     pub fn of_photons([last, before]: [f64; 2], part: u32, passes: u32) -> Fits {
         let seen = Seen { last, before, part: part.max(1), passes };
-        let noise = seen.noise_of_independent().max(seen.least());
-        Fits { least: noise, most: noise, rate: 1.0 }
+        let most = seen.noise_of_independent().max(seen.least());
+        let rate = seen.local().unwrap_or(1.0);
+        Fits { least: seen.noise(rate).clamp(seen.least(), most), most, rate }
     }
 
     pub fn middle(self) -> f64 {

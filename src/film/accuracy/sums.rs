@@ -6,6 +6,9 @@ use crate::film::brightness::Brightness;
 use crate::math::DVec3;
 use crate::trace::{Kind, Look, Probe};
 
+/// What the local rate of independent passes may be off by.
+const BY_CHANCE: f64 = 0.15;
+
 /// Sums over probes of squares, relative and averaged over channels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
@@ -23,7 +26,7 @@ pub(super) struct Sums {
 
 impl Sums {
     pub fn add(&mut self, probe: &Probe, picture: &Brightness, floor: f64) {
-        let trusted = picture.trusted(probe.x, probe.y, probe.others());
+        let trusted = picture.trusted(probe.x, probe.y, probe.others(), probe.passes());
         let weight = weight(probe.mean_of_all() * trusted, floor);
         let relative = |square: DVec3| (square * weight).element_sum() / 3.0;
         self.count += 1.0;
@@ -77,12 +80,11 @@ impl Sums {
         Noise { squared: s2 * fits.middle(), rate: fits.rate, doubt: fits.doubt() }
     }
 
-    /// By what factor the noise may be off, as far as laws that fit what was seen differ: its logarithm.
+    /// By what factor the noise may be off, as far as rates that fit what was seen differ: its logarithm.
     pub fn doubt(&self, part: u32, passes: u32) -> f64 {
-        let of = |kind| self.noise(kind, part, passes);
-        let [rest, caustic, indirect] = [of(Kind::Rest), of(Kind::Caustic), of(Kind::Indirect)];
-        let all = rest.squared + caustic.squared + indirect.squared;
-        if all > 0.0 { rest.doubt * rest.squared / all } else { 0.0 }
+        let kinds = Kind::ALL.map(|kind| self.noise(kind, part, passes));
+        let all: f64 = kinds.iter().map(|noise| noise.squared).sum();
+        if all > 0.0 { kinds.iter().map(|noise| noise.doubt * noise.squared).sum::<f64>() / all } else { 0.0 }
     }
 
     /// The squared bias: 0 caustic, 1 indirect, 2 both. Below 0 by chance where it is small.
@@ -106,11 +108,13 @@ impl Sums {
             let noise = self.noise(kind, part, passes);
             Row { effect, noise: noise.squared * share, rate: noise.rate }
         };
+        // A radius that shrinks takes from the rate that passes of one radius have: 1, where no more than chance is seen.
+        let photons = |rate: f64, row: Row| Row { rate: (row.rate - BY_CHANCE).max(1.0) - 1.0 + rate, ..row };
         [
             row("edges", Kind::Rest, edges),
             row("direct", Kind::Rest, 1.0 - edges),
-            Row { rate: rates.caustics, ..row("caustics", Kind::Caustic, 1.0) },
-            Row { rate: rates.indirect, ..row("indirect", Kind::Indirect, 1.0) },
+            photons(rates.caustics, row("caustics", Kind::Caustic, 1.0)),
+            photons(rates.indirect, row("indirect", Kind::Indirect, 1.0)),
         ]
     }
 }
