@@ -165,8 +165,8 @@ pub struct Work {
     /// End after this wall time of the whole process: `90`, `60s`, `5min`, `1h`; the scene's if not given
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub time: Option<f64>,
-    /// End when the relative RMS error of the picture is this or less: `2%`, `0.02`; the scene's if not
-    /// given. Whichever of passes, time and error comes first ends the render
+    /// End when the relative RMS error of the picture is this or less, `2%`, `0.02`, by a quarter of the way to
+    /// the upper end of its interval; the scene's if not given. Whichever of passes, time and error comes first ends the render
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub error: Option<f64>,
     /// Seed of every random value; the scene's if not given

@@ -15,8 +15,8 @@ const FAR: f64 = 2.0;
 /// Passes of which one alone meets what covers a small part of a pixel. Of fewer it may cover half.
 const MANY: u32 = 16;
 
-/// Of n passes one has met what covers a part c of a pixel with the probability n·c·(1 − c)^(n−1): where small parts are
-/// as usual as large ones on a logarithmic scale, the mean of 1/R² over them is about twice that of the mean.
+/// Of n passes one has met what covers a part c of a pixel with the probability n·c·(1 − c)^(n−1), so that much smaller
+/// parts than 1/n are as likely as that, where 1/R² is larger: found by trial, glints of the sun in glass.
 const COVERED: f64 = 0.7;
 
 impl Brightness {

@@ -59,8 +59,10 @@ pub fn expected(
     let Some(accuracy) = stats.accuracy else { return Ok(unknown) };
     let traced: f64 = stats.stages.iter().filter(|s| s.name == "trace").map(|s| s.seconds).sum();
     let each = traced / f64::from(stats.passes.max(1));
-    let by_error =
-        planned.until.error.map(|error| accuracy.passes_for(error).max(f64::from(crate::plan::FEWEST)));
+    let by_error = planned
+        .until
+        .error
+        .map(|error| accuracy.passes_for(accuracy.aim(error)).max(f64::from(crate::plan::FEWEST)));
     let planned_passes = if planned.until.error.is_some() && planned.until.seconds.is_none() {
         f64::from(plan.passes)
     } else {

@@ -162,13 +162,14 @@ impl Options {
 
     pub(super) fn wants(&self, width: u32, height: u32) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
+        let part = self.crop.map_or((width, height), |crop| (crop.width(), crop.height()));
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
             split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
             variance: any(&[Aov::Variance, Aov::Noise]),
             bias: any(&[Aov::Bias]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
-            probes: (!self.untold).then(|| Probes::of(width, height)),
+            probes: (!self.untold).then(|| Probes::of(part.0, part.1)),
         }
     }
 

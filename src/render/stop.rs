@@ -34,10 +34,6 @@ const FIRST_REST: u32 = 16;
 /// The part of the squared error to be reached that a block which rests may have.
 const SETTLED: f64 = 0.5;
 
-/// What of the way from the stated error to the upper end of its interval an error that is to be reached is below the
-/// target: a half of a standard deviation, so that the true error is below it in two of three renders.
-const SURE: f64 = 0.25;
-
 /// Seconds kept for writing the images: at the least, and by value of the image.
 const WRITING: (f64, f64) = (0.02, 60e-9);
 
@@ -122,8 +118,7 @@ impl Stop {
         if looks {
             progress.error(accuracy.error, target);
         }
-        // Where the error is known badly, it is to be lower.
-        let target = target * (accuracy.error / accuracy.interval[1]).powf(SURE);
+        let target = accuracy.aim(target);
         if accuracy.error <= target {
             return true;
         }

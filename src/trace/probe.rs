@@ -15,13 +15,13 @@ pub struct Probes {
     stride: u32,
 }
 
-/// Probes that an image has at least, should it have as many pixels.
+/// Probes that an image of fewer than [`LARGE`] pixels has at least, should it have as many pixels.
 const LEAST: u64 = 4096;
 
-/// The largest square that one probe stands for, of images with fewer than [`LARGE`] pixels.
+/// The largest square that one probe stands for, of such images.
 const WIDE: u32 = 8;
 
-/// The square of an image of so many pixels, which has [`LEAST`]/2 probes then: 1.2 bytes a pixel.
+/// The square of an image of so many pixels, which has 2000 probes then or more: 1.6 bytes a pixel.
 const WIDEST: u32 = 16;
 const LARGE: u64 = 512_000;
 
@@ -29,7 +29,7 @@ const LARGE: u64 = 512_000;
 pub const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 impl Probes {
-    /// Of an image of so many pixels: one in 256, and more of a small one.
+    /// Of an image, or of the part of it that is rendered, of so many pixels: one in 256, and more of a small one.
     pub fn of(width: u32, height: u32) -> Probes {
         let pixels = u64::from(width) * u64::from(height);
         let wide = || (1..=WIDE).rev().find(|s| pixels / u64::from(s * s) >= LEAST).unwrap_or(1);

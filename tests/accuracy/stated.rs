@@ -90,6 +90,25 @@ fn rendering_to_an_error_reaches_it() {
     assert!(reached.count() >= 4);
 }
 
+/// A picture without any noise is done at the first look.
+#[test]
+fn a_render_to_an_error_ends_where_there_is_none() {
+    let loaded = focused(
+        r#"(
+    camera: (eye: (0, 0, 5), target: (0, 0, 0)),
+    image: (width: 24, height: 16),
+    background: 0.5,
+    materials: { "grey": (diffuse: 0.5) },
+    lights: { "lamp": point(position: (0, 4, 3), intensity: 20) },
+    objects: [(shape: sphere(radius: 1, center: (0, 0, 9)), material: "grey")],
+)"#,
+    )
+    .load();
+    let until = Until { error: Some(0.02), seconds: None };
+    let found = rendered(&loaded, &Options { until, passes: Some(0..64), ..Options::default() });
+    assert_eq!(found.stats.passes, 4, "{:?}", found.stats.accuracy);
+}
+
 /// A second is a second, whatever the scene could take.
 #[test]
 fn rendering_for_a_time_keeps_to_it() {

@@ -151,7 +151,8 @@ impl Classes {
             mean_passes += class.independent.count as f64 / self.pixels * f64::from(passes);
             // Probes tell how it is shared, all pixels how much it is.
             let told = if class.probes() > 0.0 { passes } else { self.main };
-            let shares = self.classes[&told].sums(None).rows(self.classes[&told].part, told, self.rates);
+            let class_told = &self.classes[&told];
+            let shares = class_told.sums(None).rows(class_told.part, told, self.rates, self.independent);
             let probed: f64 = shares.iter().map(|row| row.noise).sum();
             let scale = if probed > 0.0 { self.noise(passes, class, None) / probed } else { 0.0 };
             for share in shares {

@@ -45,6 +45,9 @@ pub(in crate::film) fn done<'a>(
         block.probes += 1.0;
         block.bias += (squared * weight(probe.mean_of_all(), floor)).element_sum() / 3.0;
     }
+    // Where no probe is near, as at the edge of a crop.
+    let (probes, bias) = blocks.iter().fold((0.0, 0.0), |(n, sum), b| (n + b.probes, sum + b.bias));
+    let everywhere = bias / f64::max(probes, 1.0);
     let around = |i: usize, far: u32| {
         let (x, y) = (i as u32 % across, i as u32 / across);
         let near = move |c: u32, end: u32| c.saturating_sub(far)..(c + far + 1).min(end);
@@ -54,7 +57,7 @@ pub(in crate::film) fn done<'a>(
         .map(|i| {
             let (probes, bias) =
                 around(i, 2).fold((0.0, 0.0), |(n, sum), k| (n + blocks[k].probes, sum + blocks[k].bias));
-            let bias = (bias / f64::max(probes, 1.0)).max(0.0);
+            let bias = if probes > 0.0 { bias / probes } else { everywhere }.max(0.0);
             blocks[i].noise / blocks[i].pixels.max(1.0) + bias <= enough
         })
         .collect();

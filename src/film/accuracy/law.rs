@@ -55,7 +55,11 @@ impl Fits {
         let seen = Seen { last, before, part: part.max(1), passes };
         let rates: Vec<f64> =
             [Some(typical(passes)), seen.local(), seen.overall()].into_iter().flatten().collect();
-        let values = rates.iter().map(|rate| seen.noise(*rate).max(seen.least()));
+        // Where the first part has not changed, no rate tells what the later passes have found: if one has, it is its
+        // own squared error.
+        let noise =
+            |rate: &f64| if seen.before <= 0.0 && !seen.full() { seen.last } else { seen.noise(*rate) };
+        let values = rates.iter().map(|rate| noise(rate).max(seen.least()));
         Fits {
             least: values.clone().fold(f64::INFINITY, f64::min),
             most: values.fold(0.0, f64::max),
@@ -68,8 +72,9 @@ impl Fits {
     pub fn of_photons([last, before]: [f64; 2], part: u32, passes: u32) -> Fits {
         let seen = Seen { last, before, part: part.max(1), passes };
         let most = seen.noise_of_independent().max(seen.least());
-        let rate = seen.local().unwrap_or(1.0);
-        Fits { least: seen.noise(rate).clamp(seen.least(), most), most, rate }
+        let local = seen.local();
+        let least = local.map_or(most, |rate| seen.noise(rate).clamp(seen.least(), most));
+        Fits { least, most, rate: local.unwrap_or(1.0) }
     }
 
     pub fn middle(self) -> f64 {
@@ -289,6 +294,22 @@ mod tests {
                     "{passes}, {share}: e^{off:.3}"
                 );
                 assert!(share < 1.0 || off.abs() < 1e-9);
+            }
+        }
+    }
+
+    /// Light that was first found after the first part, in one pass: its square is stated; of photons less, as the first
+    /// part counts too, which had none.
+    #[test]
+    fn late_light_is_told_of() {
+        for (part, passes) in [(4, 5), (4, 6), (16, 20)] {
+            // 1 in one pass, 0 in all others: the squared change and V are 1/n², the scatter is 1/n.
+            let n = f64::from(passes);
+            for fits in
+                [Fits::of([1.0 / n, 0.0], part, passes), Fits::of_photons([1.0 / n, 0.0], part, passes)]
+            {
+                let off = 0.5 * (fits.middle() * n).ln();
+                assert!((-0.21..0.01).contains(&off), "{passes}: e^{off:.2} {fits:?}");
             }
         }
     }

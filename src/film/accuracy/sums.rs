@@ -99,13 +99,19 @@ impl Sums {
         if independent > 0.0 { noise / independent } else { 1.0 }
     }
 
-    /// The squared noise of the probes by effect; that of photons falls at these rates.
-    pub fn rows(&self, part: u32, passes: u32, rates: Rates) -> [Row; 4] {
+    /// The squared noise of the probes by effect; that of photons falls at these rates. `independent`: as that of
+    /// independent passes, whatever the probes tell.
+    pub fn rows(&self, part: u32, passes: u32, rates: Rates, independent: bool) -> [Row; 4] {
         // Of what differs from pass to pass, what does not differ at one place is the pixel's extent.
         let [place, all] = self.place;
         let edges = if all > 0.0 { (1.0 - place / all).max(0.0) } else { 0.0 };
         let row = |effect, kind, share: f64| {
-            let noise = self.noise(kind, part, passes);
+            let noise = if independent {
+                let squared = self.variance[kind as usize] / (self.count.max(1.0) * f64::from(passes));
+                Noise { squared, rate: 1.0, doubt: 0.0 }
+            } else {
+                self.noise(kind, part, passes)
+            };
             Row { effect, noise: noise.squared * share, rate: noise.rate }
         };
         // A radius that shrinks takes from the rate that passes of one radius have: 1, where no more than chance is seen.
