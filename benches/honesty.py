@@ -28,6 +28,8 @@ REFERENCE = int(os.environ.get("REFERENCE", "4000"))
 # Photons of the reference's passes over those of the renders'.
 MORE = 4
 FOLDER = os.path.join(ROOT, "target", "honesty")
+with open(TERRARIUM, "rb") as program:
+    PROGRAM = hashlib.sha256(program.read()).hexdigest()
 SCENES = ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "gallery/tumbler.ron", "gallery/reflection.ron",
           "gallery/still_life.toml"]
 PASSES = [4, 8, 16, 64]
@@ -99,10 +101,9 @@ class Found:
     @staticmethod
     def kept(name):
         """The file for what is found of a scene by this program with these settings."""
-        with open(TERRARIUM, "rb") as program:
-            of = hashlib.sha256(program.read())
-        of.update(repr((name, SEEDS, SIDE, REFERENCE, MORE, PASSES, TARGET)).encode())
-        return os.path.join(FOLDER, "found-%s.json" % of.hexdigest()[:16])
+        scene = plan(os.path.join(ROOT, "scenes", name))["scene_hash"]
+        of = repr((PROGRAM, scene, SEEDS, SIDE, REFERENCE, MORE, PASSES, TARGET))
+        return os.path.join(FOLDER, "found-%s.json" % hashlib.sha256(of.encode()).hexdigest()[:16])
 
     @staticmethod
     def before(name):
