@@ -69,8 +69,8 @@ pub fn chart(study: &Study) -> Drawing {
             told.push(format!("slope {} in time", signed(slope)));
         }
         if let Some(slopes) = line.theory {
-            let found = line.late_error_by_number.map_or("?".to_owned(), signed);
-            told.push(format!("{found} in {}, at last", line.knob.unit()));
+            let found = line.late_error_by_number.map(signed);
+            told.extend(found.map(|slope| format!("{slope} in {}, at last", line.knob.unit())));
             told.push(format!("theory: {}", theory::said(slopes)));
         }
         for text in told {
