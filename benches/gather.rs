@@ -13,8 +13,8 @@ use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 use terrarium::index::{Kernel, PhotonMap, Query, Radius};
-use terrarium::math::Vec3;
 use terrarium::math::random::{Counter, Stage};
+use terrarium::math::{Color, Vec3};
 use terrarium::scatter::Photon;
 
 const PHOTONS: usize = 1_000_000;
@@ -68,7 +68,7 @@ fn main() {
         ] {
             let gather = |p: Vec3| {
                 let gathered =
-                    map.gather(&Query { p, n: Vec3::Y, radius }, Kernel::Disc, |_| Vec3::splat(0.3));
+                    map.gather(&Query { p, n: Vec3::Y, radius }, Kernel::Disc, |_| Color::splat(0.3));
                 black_box(gathered.radiance);
                 gathered.photons as usize
             };

@@ -4,7 +4,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use std::path::Path;
 use terrarium::build::images::{ImageError, Images, Limits, TextureUse};
 use terrarium::description::{ColorSpace, EnvironmentMap, Rgb, Texture, UvMapping, Wrap};
-use terrarium::math::{DVec2, DVec3, Vec3};
+use terrarium::math::{Color, DVec2, DVec3};
 use terrarium::optics::TexturePoint;
 
 /// A PNG of the given grey codes in one row.
@@ -84,14 +84,14 @@ fn environments_follow_their_description() {
     let mut images = Images::new(folder.path(), Limits::default());
     let map = EnvironmentMap::Image { path: "sky.png".into(), color_space: ColorSpace::Auto };
     let sky = images.environment(&map, 3.0, 45.0).expect("it is there");
-    assert_eq!(sky.radiance(DVec3::Y), Vec3::splat(3.0));
+    assert_eq!(sky.radiance(DVec3::Y), Color::splat(3.0));
     let map = EnvironmentMap::Gradient {
         zenith: Rgb([0.0, 0.0, 1.0]),
         horizon: Rgb::grey(1.0),
         nadir: Rgb::grey(0.0),
     };
     let sky = images.environment(&map, 1.0, 0.0).expect("it needs no file");
-    assert_eq!(sky.radiance(DVec3::Y), Vec3::Z);
-    assert_eq!(sky.radiance(DVec3::X), Vec3::ONE);
-    assert!((sky.radiance(DVec3::new(0.8, -0.6, 0.0)) - Vec3::splat(0.4)).length() < 1e-6);
+    assert_eq!(sky.radiance(DVec3::Y), Color::Z);
+    assert_eq!(sky.radiance(DVec3::X), Color::ONE);
+    assert!((sky.radiance(DVec3::new(0.8, -0.6, 0.0)) - Color::splat(0.4)).length() < 1e-6);
 }

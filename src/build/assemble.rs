@@ -8,10 +8,11 @@ use super::materials::{Surfaces, rgb};
 use super::media::Medium;
 use super::objects::Placed;
 use super::sight::Sight;
+use super::vista::Vista;
 use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Color};
 use crate::optics::{Camera, Cauchy, EmitterKind, Material, Spectrum, Weight};
 use crate::plan::Plan;
 use rayon::prelude::*;
@@ -62,7 +63,6 @@ pub(super) fn assemble(
         })
         .collect();
     let around = |from| Sight::new(from, &placed.instances, &placed.geometries, &bounds);
-    let eye = if camera.lens_radius == 0.0 { around(camera.eye) } else { None };
     let sights = lights
         .emitters
         .iter()
@@ -73,9 +73,9 @@ pub(super) fn assemble(
         .collect();
     let world = World {
         origin,
+        vista: Vista::new(&camera, &bounds),
         camera,
         tree: Bvh::build(&bounds),
-        eye,
         sights,
         geometries: placed.geometries,
         instances: placed.instances,
@@ -98,7 +98,7 @@ pub(super) fn assemble(
 }
 
 /// The index of refraction and absorption of an instance's first transmissive part.
-fn inside(instance: &Instance, placed: &Placed, materials: &[Material]) -> Option<(Cauchy, Vec3)> {
+fn inside(instance: &Instance, placed: &Placed, materials: &[Material]) -> Option<(Cauchy, Color)> {
     let m = transmissive(instance, placed, materials)?;
     Some((m.ior, m.absorption))
 }
@@ -204,7 +204,7 @@ impl Transmissive {
 /// Whether a material in the vacuum leaves light as it is.
 fn changes_nothing(m: &Material) -> bool {
     m.ior == Cauchy::new(1.0, 0.0)
-        && m.transmission == Weight::Constant(Vec3::ONE)
+        && m.transmission == Weight::Constant(Color::ONE)
         && m.reflection.is_zero()
         && m.specular.is_zero()
         && m.emission.is_zero()

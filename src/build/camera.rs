@@ -19,7 +19,7 @@ pub(super) fn translate(camera: &description::Camera, image: &description::Image
         right,
         up: right.cross(forward),
         forward,
-        tan_half: libm::tan(camera.fov_deg.to_radians() / 2.0),
+        pixel: 2.0 * libm::tan(camera.fov_deg.to_radians() / 2.0) / f64::from(image.height),
         lens_radius: camera.aperture_m / 2.0,
         focus: camera.focus_m.unwrap_or(view.length()),
         width: image.width,

@@ -5,7 +5,7 @@ use super::media::MediaSet;
 use super::shading::Shading;
 use super::surface::Surface;
 use super::world::World;
-use crate::math::{DVec3, Health, Rare, Vec3};
+use crate::math::{Color, DVec3, Health, Rare};
 use crate::optics::{Interface, reflected, refracted};
 
 /// The way through a transmissive surface.
@@ -23,7 +23,7 @@ pub struct Colour {
     /// µm; none where nothing has dispersed yet.
     pub um: Option<f64>,
     /// What the path's weight is multiplied by.
-    pub weight: Vec3,
+    pub weight: Color,
 }
 
 impl World {
@@ -43,7 +43,7 @@ impl World {
                 let sample = spectrum.sample(u());
                 Colour { um: Some(sample.um), weight: sample.weight }
             }
-            _ => Colour { um, weight: Vec3::ONE },
+            _ => Colour { um, weight: Color::ONE },
         };
         (far.ior(colour.um) / near.ior(colour.um), colour)
     }
@@ -59,7 +59,7 @@ impl World {
         health: &mut Health,
     ) -> Option<Crossing> {
         let rank = self.instances[surface.instance as usize].rank;
-        if rank == 0 || shading.kt == Vec3::ZERO {
+        if rank == 0 || shading.kt == Color::ZERO {
             None
         } else {
             self.across(media, dir, surface, rank, health)
@@ -94,17 +94,17 @@ impl World {
 
     /// Beer–Lambert over `t` metres of the medium.
     #[inline]
-    pub fn transmittance(&self, media: &MediaSet, t: f64) -> Vec3 {
-        if media.top() == 0 { Vec3::ONE } else { self.transmittance_within(media, t) }
+    pub fn transmittance(&self, media: &MediaSet, t: f64) -> Color {
+        if media.top() == 0 { Color::ONE } else { self.transmittance_within(media, t) }
     }
 
     #[inline(never)]
-    fn transmittance_within(&self, media: &MediaSet, t: f64) -> Vec3 {
+    fn transmittance_within(&self, media: &MediaSet, t: f64) -> Color {
         let (_, absorption) = self.medium(media);
-        if absorption == Vec3::ZERO {
-            return Vec3::ONE;
+        if absorption == Color::ZERO {
+            return Color::ONE;
         }
-        Vec3::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
+        Color::from(absorption.to_array().map(|sigma| libm::exp(-f64::from(sigma) * t) as f32))
     }
 }
 

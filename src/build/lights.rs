@@ -5,7 +5,7 @@ use super::materials::{Surfaces, rgb};
 use super::objects::Placed;
 use super::world::{Geometry, Instance};
 use crate::description::{Light, Scene};
-use crate::math::{DAffine3, DMat3, DVec3, Frame, Placement, Vec3, parallelogram};
+use crate::math::{Color, DAffine3, DMat3, DVec3, Frame, Placement, parallelogram};
 use crate::optics::{Disk, Emitter, EmitterKind, Environment, MaterialId, Quad, Shape, Sphere};
 use crate::plan::Plan;
 
@@ -113,7 +113,7 @@ fn luminous_shape(
 fn objects_that_emit(plan: &Plan, surfaces: &Surfaces, placed: &Placed, lights: &mut Lights) {
     let emits = |id: &MaterialId| {
         let m = &surfaces.materials[id.0 as usize];
-        m.emits() && m.emission.bound(&surfaces.textures) != Vec3::ZERO
+        m.emits() && m.emission.bound(&surfaces.textures) != Color::ZERO
     };
     for (i, instance) in placed.instances.iter().enumerate() {
         let binding = &placed.bindings[instance.binding as usize];

@@ -1,16 +1,21 @@
 //! Directions in which a surface that is not specular sends light on.
 
 use super::shading::Shading;
-use crate::math::{DVec3, Frame, Vec3, sampling};
+use crate::math::{Color, DVec3, Frame, sampling};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 impl Shading<'_> {
     /// A direction and f·cosθ over its density; `None` below the surface. `base` is the weight of the Lambert
     /// layer. The direction is drawn from the layers' own lobes, the cosine and the Phong lobe around the
     /// mirror direction, chosen by their weights with `choose`; the density is that of both together.
-    pub fn scattered(&self, base: Vec3, u: [f64; 2], choose: impl FnOnce() -> f64) -> Option<(DVec3, Vec3)> {
+    pub fn scattered(
+        &self,
+        base: Color,
+        u: [f64; 2],
+        choose: impl FnOnce() -> f64,
+    ) -> Option<(DVec3, Color)> {
         let (ng, ns) = (self.ng, self.ns);
-        if self.ks == Vec3::ZERO {
+        if self.ks == Color::ZERO {
             let wi = Frame::around(ns).to_world(sampling::cosine_hemisphere(u));
             return (wi.dot(ng) > 0.0).then_some((wi, base));
         }

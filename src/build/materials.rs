@@ -7,7 +7,7 @@ use crate::description::{
     self, Dispersion, Ior, Kind, Material as Described, NAMED_IOR, Place, Scene, Severity, Source,
     used_materials,
 };
-use crate::math::Vec3;
+use crate::math::Color;
 use crate::optics::{Cauchy, Material, MaterialId, Relief, Texture, TextureId, Weight};
 use crate::plan::{Effect, Plan};
 use std::collections::{HashMap, HashSet};
@@ -23,8 +23,8 @@ pub(super) struct Surfaces {
     pub images: Images,
 }
 
-pub(super) fn rgb(c: &description::Rgb) -> Vec3 {
-    Vec3::new(c.0[0] as f32, c.0[1] as f32, c.0[2] as f32)
+pub(super) fn rgb(c: &description::Rgb) -> Color {
+    Color::new(c.0[0] as f32, c.0[1] as f32, c.0[2] as f32)
 }
 
 impl Surfaces {
@@ -81,7 +81,7 @@ impl Surfaces {
     }
 
     /// A material that only emits, for the light `name` with an extent.
-    pub fn add_light(&mut self, name: &str, radiance: Vec3, emits_back: bool) -> MaterialId {
+    pub fn add_light(&mut self, name: &str, radiance: Color, emits_back: bool) -> MaterialId {
         self.material_names.push(name.to_owned());
         self.materials.push(Material {
             diffuse: Weight::ZERO,
@@ -90,7 +90,7 @@ impl Surfaces {
             reflection: Weight::ZERO,
             transmission: Weight::ZERO,
             ior: Cauchy::VACUUM,
-            absorption: Vec3::ZERO,
+            absorption: Color::ZERO,
             priority: 0,
             emission: Weight::Constant(radiance),
             emits_back,
@@ -134,7 +134,7 @@ impl<'a> Textures<'a> {
     }
 
     /// The mean colour of a texture, which is not kept.
-    fn mean(&mut self, name: &str) -> Result<Vec3, BuildError> {
+    fn mean(&mut self, name: &str) -> Result<Color, BuildError> {
         Ok(self.images.texture(self.described(name)?, TextureUse::Color)?.mean())
     }
 
@@ -219,7 +219,7 @@ fn dispersed(ior: f64, dispersion: Option<Dispersion>) -> Cauchy {
 /// brightest texels. Constants were checked with the scene.
 fn check_energy(name: &str, m: &Material, textures: &[Texture]) -> Result<(), BuildError> {
     let [kd, ks, km, kt] = [m.diffuse, m.specular, m.reflection, m.transmission].map(|w| w.bound(textures));
-    let one = Vec3::ONE;
+    let one = Color::ONE;
     let total = (km + (one - km) * (kt + (one - kt) * kd) + ks).max_element();
     // Room for the rounding of sums such as 0.8 + 0.2 and of texels that stand for 1.
     if total <= 1.0 + 1e-5 {

@@ -7,7 +7,7 @@
 //! idempotent, so that a surface met twice does no harm.
 
 use super::world::World;
-use crate::math::{DVec3, Ray, Vec3};
+use crate::math::{Color, DVec3, Ray};
 use crate::optics::Cauchy;
 
 /// The inside of a transmissive instance.
@@ -16,7 +16,7 @@ pub struct Medium {
     pub instance: u32,
     pub ior: Cauchy,
     /// 1/m.
-    pub absorption: Vec3,
+    pub absorption: Color,
 }
 
 /// Transmissive objects that may overlap at one point.
@@ -88,9 +88,9 @@ impl MediaSet {
 impl World {
     /// The medium of a set's highest rank.
     #[inline]
-    pub fn medium(&self, set: &MediaSet) -> (Cauchy, Vec3) {
+    pub fn medium(&self, set: &MediaSet) -> (Cauchy, Color) {
         match set.top() {
-            0 => (Cauchy::VACUUM, Vec3::ZERO),
+            0 => (Cauchy::VACUUM, Color::ZERO),
             rank => {
                 let medium = &self.media[rank as usize - 1];
                 (medium.ior, medium.absorption)

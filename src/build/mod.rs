@@ -23,6 +23,7 @@ mod scatter;
 mod shading;
 mod sight;
 mod surface;
+mod vista;
 mod world;
 
 use crate::description::Scene;

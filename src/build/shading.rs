@@ -2,7 +2,7 @@
 
 use super::footprint::{Cone, texture_point};
 use super::{Surface, World};
-use crate::math::{DVec3, Vec3};
+use crate::math::{Color, DVec3};
 use crate::optics::{Material, Relief, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map};
 
 /// A surface point ready for shading. Both normals are turned to the side of `wo`.
@@ -11,22 +11,27 @@ pub struct Shading<'a> {
     pub wo: DVec3,
     pub ng: DVec3,
     pub ns: DVec3,
-    pub kd: Vec3,
-    pub ks: Vec3,
-    pub km: Vec3,
-    pub kt: Vec3,
-    emission: Vec3,
+    pub kd: Color,
+    pub ks: Color,
+    pub km: Color,
+    pub kt: Color,
+    emission: Color,
 }
 
 impl<'a> Shading<'a> {
-    #[inline(always)]
     pub fn new(world: &'a World, surface: &Surface, wo: DVec3, cone: &Cone) -> Shading<'a> {
+        let mut shading = Shading::bare(world, surface, wo);
+        shading.look_up(world, surface, cone);
+        shading
+    }
+
+    /// What the material is without its textures: they count as black, and bend no normal. To be followed by
+    /// [`Shading::look_up`]; apart from it, so that neither copies the other's result.
+    #[inline(always)]
+    pub fn bare(world: &'a World, surface: &Surface, wo: DVec3) -> Shading<'a> {
         let material = &world.materials[surface.material.0 as usize];
         let outside = wo.dot(surface.ng) >= 0.0;
-        if material.textured {
-            return Shading::textured(world, material, surface, wo, cone, outside);
-        }
-        let at = |weight: &Weight| if let Weight::Constant(value) = weight { *value } else { Vec3::ZERO };
+        let at = |weight: &Weight| if let Weight::Constant(value) = weight { *value } else { Color::ZERO };
         let turn = if outside { 1.0 } else { -1.0 };
         Shading {
             material,
@@ -37,34 +42,38 @@ impl<'a> Shading<'a> {
             ks: at(&material.specular),
             km: at(&material.reflection),
             kt: at(&material.transmission),
-            emission: if outside || material.emits_back { at(&material.emission) } else { Vec3::ZERO },
+            emission: if outside || material.emits_back { at(&material.emission) } else { Color::ZERO },
+        }
+    }
+
+    /// Looks up what textures say.
+    #[inline(always)]
+    pub fn look_up(&mut self, world: &World, surface: &Surface, cone: &Cone) {
+        if self.material.textured {
+            self.look_up_textures(world, surface, cone);
         }
     }
 
     #[inline(never)]
-    fn textured(
-        world: &'a World,
-        material: &'a Material,
-        surface: &Surface,
-        wo: DVec3,
-        cone: &Cone,
-        outside: bool,
-    ) -> Shading<'a> {
+    fn look_up_textures(&mut self, world: &World, surface: &Surface, cone: &Cone) {
+        let outside = self.wo.dot(surface.ng) >= 0.0;
+        let material = self.material;
         let scale = world.instances[surface.instance as usize].placement.scale();
-        let point = texture_point(surface, scale, wo, cone);
-        let at = |weight: &Weight| weight.at(&world.textures, &point);
-        let ns = bent_normal(world, material, surface, &point);
-        let turn = if outside { 1.0 } else { -1.0 };
-        Shading {
-            material,
-            wo,
-            ng: surface.ng * turn,
-            ns: ns * turn,
-            kd: at(&material.diffuse),
-            ks: at(&material.specular),
-            km: at(&material.reflection),
-            kt: at(&material.transmission),
-            emission: if outside || material.emits_back { at(&material.emission) } else { Vec3::ZERO },
+        let point = texture_point(surface, scale, self.wo, cone);
+        let look = |weight: &Weight, value: &mut Color| {
+            if weight.textured() {
+                *value = weight.at(&world.textures, &point);
+            }
+        };
+        look(&material.diffuse, &mut self.kd);
+        look(&material.specular, &mut self.ks);
+        look(&material.reflection, &mut self.km);
+        look(&material.transmission, &mut self.kt);
+        if outside || material.emits_back {
+            look(&material.emission, &mut self.emission);
+        }
+        if !material.relief.is_empty() {
+            self.ns = bent_normal(world, material, surface, &point) * if outside { 1.0 } else { -1.0 };
         }
     }
 
@@ -77,13 +86,13 @@ impl<'a> Shading<'a> {
             return Shading::new(world, surface, wo, &cone);
         }
         let turn = if wo.dot(surface.ng) >= 0.0 { 1.0 } else { -1.0 };
-        let none = Vec3::ZERO;
+        let none = Color::ZERO;
         let (ng, ns) = (surface.ng * turn, surface.ns * turn);
         Shading { material, wo, ng, ns, kd: none, ks: none, km: none, kt: none, emission: none }
     }
 
     /// Radiance that the surface itself sends towards `wo`.
-    pub fn emitted(&self) -> Vec3 {
+    pub fn emitted(&self) -> Color {
         self.emission
     }
 }

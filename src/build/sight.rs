@@ -1,12 +1,10 @@
-//! What can lie in a direction from a fixed point, for scenes of a handful of objects: which of them a
-//! ray from a pinhole's eye may meet, and which may hide a lamp's point, without a test of their bounds.
+//! What can hide a lamp's point, for scenes of a handful of objects, without a test of their bounds.
 //!
 //! The directions are a cube around the point, each of its faces divided into cells; a cell holds the set of
-//! the objects whose bounds reach into its pyramid. For eyes this is Weghorst, Hooper & Greenberg 1984
-//! (Improved Computational Methods for Ray Tracing, TOG 3(1)), for lights Haines & Greenberg 1986 (The
-//! Light Buffer, CG&A 6(9)).
+//! the objects whose bounds reach into its pyramid: the light buffer of Haines & Greenberg 1986 (The Light
+//! Buffer, CG&A 6(9)).
 
-use super::world::{Geometry, Hit, Instance, World};
+use super::world::{Geometry, Instance, World};
 use crate::math::{Aabb, DVec3, Ray};
 use crate::optics::Shape;
 
@@ -129,21 +127,6 @@ fn convex(geometry: &Geometry) -> bool {
 }
 
 impl World {
-    /// The nearest hit of a ray that starts at the camera's eye.
-    #[inline]
-    pub fn nearest_from_eye(&self, ray: &Ray) -> Option<Hit> {
-        let Some(sight) = &self.eye else { return self.nearest(ray, f64::INFINITY) };
-        let mut left = sight.towards(ray.dir);
-        let mut best: Option<Hit> = None;
-        while left != 0 {
-            let instance = sight.instances[left.trailing_zeros() as usize];
-            left &= left - 1;
-            let t_max = best.map_or(f64::INFINITY, |hit| hit.t);
-            best = self.nearest_of(instance, ray, t_max).or(best);
-        }
-        best
-    }
-
     /// Whether anything lies on the way of a ray at 0 < t < 1 that ends in the position of an emitter
     /// without extent, by its index. `leaving`: the instance whose outer side (of a flat shape: either side)
     /// the ray leaves.
@@ -208,7 +191,7 @@ mod tests {
 
     /// The same answers as the tree's, for rays all over a scene of every shape, lit from within it.
     #[test]
-    fn eye_and_lamp_see_what_the_tree_finds() {
+    fn a_lamp_is_hidden_where_the_tree_finds_something() {
         let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 8, height: 8),
             materials: { "m": (diffuse: 0.5), "glass": (transmission: 1) },
             lights: { "lamp": point(position: (-1, 2, 1), intensity: 1) },
@@ -221,7 +204,7 @@ mod tests {
             crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
         let plan = crate::plan::Plan::new(&scene, &Default::default()).expect("nothing is overridden");
         let world = crate::build::build(&scene, &plan).expect("it can be built").world;
-        assert!(world.eye.is_some() && world.sights[0].is_some());
+        assert!(world.sights[0].is_some());
         let EmitterKind::Point { position, .. } = world.emitters[0].kind else { unreachable!() };
         let mut random = Counter::new(8, Stage::Test, 0);
         let (mut met, mut hidden) = (0, 0);
@@ -230,7 +213,6 @@ mod tests {
             let aim = DVec3::new(5.0 * u[0] - 2.5, 2.0 * u[1] - 0.4, 4.0 * u[2] - 2.5);
             let ray = Ray { origin: world.camera.eye, dir: (aim - world.camera.eye).normalize() };
             let hit = world.nearest(&ray, f64::INFINITY);
-            assert_eq!(world.nearest_from_eye(&ray), hit);
             let Some(hit) = hit else { continue };
             met += 1;
             let surface = world.surface(&ray, &hit);

@@ -8,7 +8,8 @@ use super::bvh::{BoxRay, Bvh, TriangleBvh};
 use super::contact::Contacts;
 use super::media::Medium;
 use super::sight::Sight;
-use crate::math::{Aabb, DVec3, Placement, Ray, Vec3, round_up};
+use super::vista::Vista;
+use crate::math::{Aabb, Color, DVec3, Placement, Ray, round_up};
 use crate::optics::{
     Camera, Emitter, Environment, Material, MaterialId, Shape, ShapeHit, Spectrum, Texture, TriangleMesh,
 };
@@ -23,8 +24,8 @@ pub struct World {
     /// Materials by part, for each binding that instances name.
     pub bindings: Vec<Vec<MaterialId>>,
     pub tree: Bvh,
-    /// What a pinhole camera sees where, in scenes of few objects.
-    pub eye: Option<Sight>,
+    /// What a pinhole camera may see where, in scenes of few objects.
+    pub vista: Option<Vista>,
     /// By emitter, what lies around those without an extent, in scenes of few objects.
     pub sights: Vec<Option<Sight>>,
     pub materials: Vec<Material>,
@@ -44,8 +45,8 @@ pub struct World {
     /// Surfaces of transmissive instances that are closer together than this along the normal, in
     /// metres, are one interface; 0 where none overlap.
     pub coincidence: f64,
-    pub background: Vec3,
-    pub ambient: Vec3,
+    pub background: Color,
+    pub ambient: Color,
     /// Names for the object-id layer and messages.
     pub object_names: Vec<String>,
 }
@@ -153,23 +154,32 @@ impl World {
             round_up(t_max),
             #[inline(always)]
             |instance, _| {
-                let placed = &self.instances[instance as usize];
-                let local = placed.placement.local_ray(ray);
-                best = match &self.geometries[placed.geometry as usize] {
-                    Geometry::Shape(shape) => {
-                        let ShapeHit { t, face } = shape.nearest(&local, 0.0, best.t)?;
-                        Hit { t, instance, primitive: face, b: [0.0; 3] }
-                    }
-                    Geometry::Mesh(mesh) => {
-                        let h = mesh.tree.nearest(&BoxRay::rounded(&local), round_up(best.t))?;
-                        Hit { t: f64::from(h.t), instance, primitive: h.triangle, b: h.b }
-                    }
-                };
-                met = true;
-                Some(round_up(best.t))
+                let nearer = self.nearer(instance, ray, &mut best);
+                met |= nearer;
+                nearer.then(|| round_up(best.t))
             },
         );
         met.then_some(best)
+    }
+
+    /// Puts a hit of one instance at 0 < t < best.t in the place of `best`. Whether there is one.
+    #[inline(always)]
+    pub(super) fn nearer(&self, instance: u32, ray: &Ray, best: &mut Hit) -> bool {
+        let placed = &self.instances[instance as usize];
+        let local = placed.placement.local_ray(ray);
+        match &self.geometries[placed.geometry as usize] {
+            Geometry::Shape(shape) => {
+                let Some(ShapeHit { t, face }) = shape.nearest(&local, 0.0, best.t) else { return false };
+                *best = Hit { t, instance, primitive: face, b: [0.0; 3] };
+            }
+            Geometry::Mesh(mesh) => {
+                let Some(h) = mesh.tree.nearest(&BoxRay::rounded(&local), round_up(best.t)) else {
+                    return false;
+                };
+                *best = Hit { t: f64::from(h.t), instance, primitive: h.triangle, b: h.b };
+            }
+        }
+        true
     }
 
     /// The nearest hit of one instance with 0 < t < t_max.

@@ -1,7 +1,7 @@
 //! What tracing asks of a pass's photons: the map, and how far around a point it is asked.
 
 use super::{Bandwidth, Gathered, Kernel, PhotonMap, Query, Radius};
-use crate::math::Vec3;
+use crate::math::{Color, Vec3};
 
 /// The photons of one pass with the rule of their radius.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ impl Caustics<'_> {
         n: Vec3,
         least: f32,
         within: Option<f32>,
-        brdf: impl Fn(Vec3) -> Vec3,
+        brdf: impl Fn(Vec3) -> Color,
     ) -> Gathered {
         let radius = match self.reach {
             _ if let Some(radius) = within => Radius::Fixed(radius),

@@ -14,7 +14,7 @@
 use super::kernel::Kernel;
 use super::map::PhotonMap;
 use super::search::Hit;
-use crate::math::Vec3;
+use crate::math::{Color, Vec3};
 
 /// Where photons are gathered, and how far around.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ pub enum Radius {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gathered {
     /// W·m⁻²·sr⁻¹ if the closure gives a BRDF in sr⁻¹; W·m⁻², the irradiance, if it gives ones.
-    pub radiance: Vec3,
+    pub radiance: Color,
     /// Photons in the sum.
     pub photons: u32,
     /// Metres.
@@ -58,7 +58,7 @@ impl PhotonMap {
     /// from `wi` that is seen. Nothing where the radius is zero or not a number: a floor under it is
     /// the caller's.
     #[inline]
-    pub fn gather(&self, query: &Query, kernel: Kernel, brdf: impl Fn(Vec3) -> Vec3) -> Gathered {
+    pub fn gather(&self, query: &Query, kernel: Kernel, brdf: impl Fn(Vec3) -> Color) -> Gathered {
         match query.radius {
             Radius::Fixed(radius) => self.gather_within(query, radius, kernel, &brdf),
             Radius::Nearest { k, min, max } => self.gather_nearest(query, [min, max], k, kernel, &brdf),
@@ -71,7 +71,7 @@ impl PhotonMap {
         query: &Query,
         radius: f32,
         kernel: Kernel,
-        brdf: &impl Fn(Vec3) -> Vec3,
+        brdf: &impl Fn(Vec3) -> Color,
     ) -> Gathered {
         let mut sum = Sum::new(kernel, radius);
         self.each(
@@ -93,7 +93,7 @@ impl PhotonMap {
         [min, max]: [f32; 2],
         k: usize,
         kernel: Kernel,
-        brdf: &impl Fn(Vec3) -> Vec3,
+        brdf: &impl Fn(Vec3) -> Color,
     ) -> Gathered {
         let k = k.max(2);
         let gathered = self.with_nearest(query.p, query.n, k, max, |nearest| {
@@ -119,7 +119,7 @@ struct Sum {
     kernel: Kernel,
     radius: f32,
     inverse_square: f32,
-    radiance: Vec3,
+    radiance: Color,
     offset: Vec3,
     photons: u32,
 }
@@ -128,11 +128,11 @@ impl Sum {
     #[inline(always)]
     fn new(kernel: Kernel, radius: f32) -> Sum {
         let inverse_square = 1.0 / (radius * radius);
-        Sum { kernel, radius, inverse_square, radiance: Vec3::ZERO, offset: Vec3::ZERO, photons: 0 }
+        Sum { kernel, radius, inverse_square, radiance: Color::ZERO, offset: Vec3::ZERO, photons: 0 }
     }
 
     #[inline(always)]
-    fn add(&mut self, hit: &Hit, brdf: &impl Fn(Vec3) -> Vec3) {
+    fn add(&mut self, hit: &Hit, brdf: &impl Fn(Vec3) -> Color) {
         let weight = self.kernel.shape(hit.distance_squared * self.inverse_square);
         self.radiance += brdf(hit.wi) * hit.power * weight;
         self.offset += hit.offset;

@@ -8,7 +8,7 @@
 //! rounding to nearest would bend all of them the same way; each is rounded up with the probability
 //! of its fraction instead, by a value that is a hash of its index, and the mean is kept.
 
-use crate::math::{Vec3, random};
+use crate::math::{Color, Vec3, random};
 use crate::scatter::Photon;
 
 const LARGEST: f32 = 32767.0;
@@ -40,10 +40,10 @@ impl Packed {
 
     /// Watts a channel.
     #[inline(always)]
-    pub fn power(&self) -> Vec3 {
+    pub fn power(&self) -> Color {
         let step = f32::from_bits(u32::from(self.exponent) << 23);
         let [r, g, b] = self.power.map(f32::from);
-        Vec3::new(r, g, b) * step
+        Color::new(r, g, b) * step
     }
 }
 

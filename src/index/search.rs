@@ -15,8 +15,8 @@
 use super::boxes::Visitor;
 use super::map::{HALVES, LEAF, PhotonMap, Positions};
 use super::photon::{NO_DIRECTION, unpack_direction};
-use crate::math::Vec3;
 use crate::math::lanes::{Array, Lanes};
+use crate::math::{Color, Vec3};
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;
@@ -29,7 +29,7 @@ pub struct Hit {
     /// Unit, towards where it came from.
     pub wi: Vec3,
     /// Watts a channel.
-    pub power: Vec3,
+    pub power: Color,
     /// From the point to the photon, metres.
     pub offset: Vec3,
     /// e², metres².

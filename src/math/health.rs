@@ -2,7 +2,7 @@
 //!
 //! Counters travel with the work that they describe and are summed; nothing is global.
 
-use super::Vec3;
+use super::Color;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -90,7 +90,7 @@ impl Health {
 
     /// Looks at a finite sample's radiance.
     #[inline]
-    pub fn see(&mut self, radiance: Vec3) {
+    pub fn see(&mut self, radiance: Color) {
         self.brightest = self.brightest.max(radiance.max_element());
     }
 

@@ -9,8 +9,8 @@ pub struct Camera {
     pub right: DVec3,
     pub up: DVec3,
     pub forward: DVec3,
-    /// tan(fov / 2), vertical.
-    pub tan_half: f64,
+    /// Side of a pixel on a film at distance 1: 2·tan(fov / 2) over the height, the angle being the vertical one.
+    pub pixel: f64,
     pub lens_radius: f64,
     /// Distance of the sharp plane along `forward`.
     pub focus: f64,
@@ -22,10 +22,8 @@ impl Camera {
     /// `film` in pixels from the top left corner; `lens` on the unit disk.
     #[inline]
     pub fn ray(&self, film: DVec2, lens: DVec2) -> Ray {
-        let half = f64::from(self.height) / 2.0;
-        let scale = self.tan_half / half;
-        let x = (film.x - f64::from(self.width) / 2.0) * scale;
-        let y = (half - film.y) * scale;
+        let x = (film.x - 0.5 * f64::from(self.width)) * self.pixel;
+        let y = (0.5 * f64::from(self.height) - film.y) * self.pixel;
         let dir = self.forward + self.right * x + self.up * y;
         if self.lens_radius == 0.0 {
             return Ray { origin: self.eye, dir: dir.normalize() };
@@ -38,7 +36,7 @@ impl Camera {
     /// ray cone. Off the axis a pixel is cosθ as wide, and cos²θ as wide along the radius; the former is taken.
     #[inline]
     pub fn pixel_spread(&self, dir: DVec3) -> f64 {
-        self.tan_half / f64::from(self.height) * self.forward.dot(dir)
+        0.5 * self.pixel * self.forward.dot(dir)
     }
 }
 
@@ -54,7 +52,7 @@ mod tests {
             right: DVec3::X,
             up: DVec3::Y,
             forward: DVec3::NEG_Z,
-            tan_half: 2.0,
+            pixel: 0.01,
             lens_radius: 0.0,
             focus: 1.0,
             width: 400,

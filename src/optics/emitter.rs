@@ -1,6 +1,6 @@
 //! What sends light: the lights of a scene, and its emitting objects.
 
-use crate::math::{DVec3, Vec3};
+use crate::math::{Color, DVec3};
 
 /// A source of light. Every kind says how many shadow rays a shading point spends on it.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub enum EmitterKind {
     /// W/sr, with the classic attenuation 1/(c0 + c1·d + c2·d²) where one is given.
     Point {
         position: DVec3,
-        intensity: Vec3,
+        intensity: Color,
         falloff: Option<[f64; 3]>,
     },
     Spot {
@@ -25,12 +25,12 @@ pub enum EmitterKind {
         axis: DVec3,
         cos_inner: f64,
         cos_outer: f64,
-        intensity: Vec3,
+        intensity: Color,
     },
     /// `to_light` is the unit direction against which the light travels; W·m⁻².
     Directional {
         to_light: DVec3,
-        irradiance: Vec3,
+        irradiance: Color,
     },
     /// A placed analytic shape whose material emits.
     Shape {
@@ -43,6 +43,15 @@ pub enum EmitterKind {
         cumulative: Vec<f64>,
     },
     Environment,
+}
+
+impl EmitterKind {
+    /// Whether its light comes to a point from more directions than one.
+    #[inline]
+    pub fn extended(&self) -> bool {
+        use EmitterKind::{Directional, Point, Spot};
+        !matches!(self, Point { .. } | Spot { .. } | Directional { .. })
+    }
 }
 
 /// The spot light's smooth edge: 1 inside the inner cone, 0 outside the outer one, a cubic between.

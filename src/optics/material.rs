@@ -1,7 +1,7 @@
 //! Materials as the renderer sees them: every name resolved, every default filled in.
 
 use super::{Cauchy, Texture, TexturePoint};
-use crate::math::Vec3;
+use crate::math::Color;
 
 /// An index into the world's materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -14,19 +14,19 @@ pub struct TextureId(pub u32);
 /// A colour or weight: constant, or a texture times a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weight {
-    Constant(Vec3),
-    Texture(TextureId, Vec3),
+    Constant(Color),
+    Texture(TextureId, Color),
 }
 
 impl Weight {
-    pub const ZERO: Weight = Weight::Constant(Vec3::ZERO);
+    pub const ZERO: Weight = Weight::Constant(Color::ZERO);
 
     pub fn is_zero(&self) -> bool {
-        matches!(self, Weight::Constant(c) if *c == Vec3::ZERO)
+        matches!(self, Weight::Constant(c) if *c == Color::ZERO)
     }
 
     #[inline]
-    pub fn at(&self, textures: &[Texture], point: &TexturePoint) -> Vec3 {
+    pub fn at(&self, textures: &[Texture], point: &TexturePoint) -> Color {
         match *self {
             Weight::Constant(value) => value,
             Weight::Texture(id, factor) => textures[id.0 as usize].color(point) * factor,
@@ -39,7 +39,7 @@ impl Weight {
     }
 
     /// An upper bound, channel by channel.
-    pub fn bound(&self, textures: &[Texture]) -> Vec3 {
+    pub fn bound(&self, textures: &[Texture]) -> Color {
         match *self {
             Weight::Constant(value) => value,
             Weight::Texture(id, factor) => textures[id.0 as usize].max() * factor,
@@ -73,7 +73,7 @@ pub struct Material {
     pub transmission: Weight,
     pub ior: Cauchy,
     /// 1/m.
-    pub absorption: Vec3,
+    pub absorption: Color,
     pub priority: i32,
     /// W·m⁻²·sr⁻¹.
     pub emission: Weight,
@@ -104,6 +104,6 @@ impl Material {
     }
 
     pub fn absorbs(&self) -> bool {
-        self.absorption != Vec3::ZERO
+        self.absorption != Color::ZERO
     }
 }

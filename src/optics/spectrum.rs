@@ -7,7 +7,8 @@
 //! The channels' densities are the CIE 1931 observer (multi-lobe fit of Wyman, Sloan & Shirley, JCGT
 //! 2(2), 2013) in linear Rec. 709, cut off at 0, since no screen shows less, and scaled to integrate to 1.
 
-use glam::{DVec3, Vec3};
+use crate::math::Color;
+use glam::DVec3;
 
 /// Nanometres.
 const FIRST: f64 = 380.0;
@@ -25,14 +26,14 @@ pub struct Spectrum {
     /// Up to the end of each step, of the mean of the channels.
     cumulative: Vec<f64>,
     /// Of each step: the channels over their mean.
-    weights: Vec<Vec3>,
+    weights: Vec<Color>,
 }
 
 /// A wavelength with its colour: the mean of the colours over all draws is (1, 1, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WavelengthSample {
     pub um: f64,
-    pub weight: Vec3,
+    pub weight: Color,
 }
 
 impl Default for Spectrum {
@@ -54,7 +55,7 @@ impl Spectrum {
             let mean = shares.element_sum() / 3.0;
             sum += mean;
             cumulative.push(sum);
-            weights.push(if mean > 0.0 { (shares / mean).as_vec3() } else { Vec3::ZERO });
+            weights.push(if mean > 0.0 { (shares / mean).as_vec3a() } else { Color::ZERO });
         }
         Spectrum { cumulative, weights }
     }

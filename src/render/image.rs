@@ -61,7 +61,7 @@ pub(super) fn provenance(loaded: &Loaded, plan: &Plan, survey: &Survey, world: &
         right: camera.right.to_array(),
         up: camera.up.to_array(),
         forward: camera.forward.to_array(),
-        fov_deg: 2.0 * libm::atan(camera.tan_half).to_degrees(),
+        fov_deg: 2.0 * libm::atan(0.5 * f64::from(camera.height) * camera.pixel).to_degrees(),
         aspect: f64::from(camera.width) / f64::from(camera.height),
         aperture_m: 2.0 * camera.lens_radius,
         focus_m: camera.focus,

@@ -7,7 +7,7 @@ use super::prices::first_photons;
 use super::share::Work;
 use super::{AllPhotons, Memory, Options, SceneSize, StageTime};
 use crate::forecast::{Bill, Cost, memory};
-use crate::math::Vec3;
+use crate::math::Color;
 use crate::plan::{Antialiasing, Plan, Until};
 use crate::survey::Survey;
 use crate::trace::{self, Rays, Sample, Wants};
@@ -105,7 +105,7 @@ fn kept_by_tiles(plan: &Plan, options: &Options, wants: &Wants, samples_per_pixe
         return 0;
     }
     let whole = wants.first_hit || wants.split || wants.photons;
-    let each = size_of::<Vec3>() + size_of::<(u64, u32)>() + if whole { size_of::<Sample>() } else { 0 };
+    let each = size_of::<Color>() + size_of::<(u64, u32)>() + if whole { size_of::<Sample>() } else { 0 };
     let pixels = f64::from(options.tile) * f64::from(options.tile);
     let bytes = 3.0 * BUSY * samples_per_pixel * pixels * each as f64;
     rayon::current_num_threads() as u64 * bytes as u64

@@ -2,7 +2,7 @@
 
 use super::bounds::Bound;
 use crate::build::{Instance, World};
-use crate::math::{Placement, Vec3};
+use crate::math::{Color, Placement};
 
 /// Bounds that aiming tells apart; more casters than this are merged by nearness.
 const MOST: usize = 32;
@@ -21,7 +21,7 @@ pub(super) fn specular(world: &World) -> Vec<(u32, Bound)> {
         instance.rank != 0
             || world.bindings[instance.binding as usize]
                 .iter()
-                .any(|id| world.materials[id.0 as usize].reflection.bound(&world.textures) != Vec3::ZERO)
+                .any(|id| world.materials[id.0 as usize].reflection.bound(&world.textures) != Color::ZERO)
     };
     (0u32..)
         .zip(&world.instances)

@@ -17,7 +17,7 @@ use super::photon::Photon;
 use super::source::Start;
 use crate::build::{Colour, Crossing, Hit, MediaSet, Shading, Surface, World};
 use crate::math::random::Sequence;
-use crate::math::{DVec3, Health, Rare, Ray, Vec3};
+use crate::math::{Color, DVec3, Health, Rare, Ray};
 use crate::optics::Interface;
 
 /// What paths are followed through.
@@ -135,7 +135,7 @@ impl Walk<'_> {
     fn absorb(&self, path: &mut Path, t: f64, sink: &mut Sink) {
         path.length += t;
         let transmittance = self.world.transmittance(&path.media, t);
-        if transmittance != Vec3::ONE {
+        if transmittance != Color::ONE {
             let left = path.power * transmittance.as_dvec3();
             sink.ledger.absorbed += path.power - left;
             path.power = left;
@@ -207,8 +207,8 @@ impl Walk<'_> {
             return None;
         }
         let rest = (DVec3::ONE - km - through).max(DVec3::ZERO);
-        let base = rest.as_vec3() * shading.kd;
-        if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
+        let base = rest.as_vec3a() * shading.kd;
+        if base == Color::ZERO && shading.ks == Color::ZERO {
             return None;
         }
         let sequence = sequence.dimension(BOUNCE + path.vertex);
@@ -224,9 +224,9 @@ impl Walk<'_> {
             Store::Indirect => path.bounces > 0,
         };
         // Where a texture is black, too: photons around such a place tell what arrives beside it.
-        let rest = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt);
+        let rest = (Color::ONE - shading.km) * (Color::ONE - shading.kt);
         let receives =
-            shading.material.shades() && (rest != Vec3::ZERO || !shading.material.specular.is_zero());
+            shading.material.shades() && (rest != Color::ZERO || !shading.material.specular.is_zero());
         if !due || !receives || shading.wo.dot(shading.ng) <= 0.0 {
             return false;
         }
@@ -269,7 +269,7 @@ impl Walk<'_> {
         let on = km + through + diffuse;
         let before = path.power;
         let u = || sequence.dimension(WAVELENGTH).value();
-        let (eta, colour) = crossing.map_or((1.0, Colour { um: path.wavelength, weight: Vec3::ONE }), |c| {
+        let (eta, colour) = crossing.map_or((1.0, Colour { um: path.wavelength, weight: Color::ONE }), |c| {
             self.world.relative_ior(&path.media, &c.after, path.wavelength, u)
         });
         path.wavelength = colour.um;

@@ -1,7 +1,7 @@
 //! Instances told apart by the names of their objects, and what they are made of.
 
 use crate::build::World;
-use crate::math::Vec3;
+use crate::math::Color;
 use crate::optics::{Material, Weight};
 use std::collections::HashSet;
 
@@ -21,7 +21,7 @@ pub(super) fn materials(world: &World, instance: u32) -> impl Iterator<Item = &M
 
 /// Whether light that falls on it can be seen on it.
 pub(super) fn receives(material: &Material) -> bool {
-    let full = |weight: &Weight| *weight == Weight::Constant(Vec3::ONE);
+    let full = |weight: &Weight| *weight == Weight::Constant(Color::ONE);
     let matt = !material.diffuse.is_zero() && !full(&material.reflection) && !full(&material.transmission);
     matt || !material.specular.is_zero()
 }

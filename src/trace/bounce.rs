@@ -3,10 +3,10 @@
 //! What such a path meets shines for it by reflected light alone: lights, seen through glass or not,
 //! have been counted where the path left (direct light and caustics).
 
-use super::path::{BOUNCE, Branch};
+use super::branch::{BOUNCE, Branch};
 use super::{Tally, Tracer};
 use crate::build::{Cone, Shading, Surface};
-use crate::math::{Ray, Vec3};
+use crate::math::{Color, Ray};
 
 /// Growth of the cone of a path that has been scattered, metres a metre: texture details smaller than
 /// that are not worth their noise.
@@ -24,11 +24,11 @@ impl Tracer<'_> {
     pub(super) fn bounced(
         &self,
         branch: &Branch,
-        base: Vec3,
+        base: Color,
         surface: &Surface,
         shading: &Shading,
         tally: &mut Tally,
-    ) -> Option<(Branch, Vec3)> {
+    ) -> Option<(Branch, Color)> {
         let sequence = branch.sequence.dimension(BOUNCE);
         let (wi, weight) = shading.scattered(base, sequence.pair(), || sequence.dimension(BOUNCE).value())?;
         tally.rays.diffuse += 1;

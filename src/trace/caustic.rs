@@ -4,12 +4,12 @@
 //! shading normal. Each is weighed by cosθ_shading/cosθ_geometric (Veach 1997, 5.3), so that photons
 //! and shadow rays agree on smooth meshes and under normal maps.
 
-use super::path::{Branch, COVERAGE, INNER, OUTER};
+use super::branch::{Branch, COVERAGE, INNER, OUTER};
 use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
 use crate::index::{Caustics, Gathered, Reach};
 use crate::math::random::Sequence;
-use crate::math::{Frame, Ray, Vec3};
+use crate::math::{Color, Frame, Ray, Vec3};
 use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ const MOST_TRIALS: u32 = 32;
 /// A caustic at a surface point.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Caustic {
-    pub radiance: Vec3,
+    pub radiance: Color,
     /// Photons by area, 1/m².
     pub density: f32,
     /// Photons in the estimate, and the radius that they were gathered within, metres.
     pub photons: u32,
     pub radius: f32,
     /// What the estimate's blur adds, by [`super::Look`]; known only where it is looked at.
-    pub bias: [Vec3; 2],
+    pub bias: [Color; 2],
 }
 
 impl Tracer<'_> {
@@ -37,7 +37,7 @@ impl Tracer<'_> {
         &self,
         caustics: &Caustics,
         branch: &Branch,
-        base: Vec3,
+        base: Color,
         surface: &Surface,
         shading: &Shading,
         tally: &mut Tally,
@@ -53,7 +53,7 @@ impl Tracer<'_> {
             |wi: Vec3| if bent { (wi.dot(ns).max(0.0) / wi.dot(ng).max(1e-3)).min(10.0) } else { 1.0 };
         let lambert = base * std::f32::consts::FRAC_1_PI;
         let gather = |within: Option<f32>| {
-            if shading.ks == Vec3::ZERO {
+            if shading.ks == Color::ZERO {
                 return caustics.gather(p, ng, least, within, |wi| lambert * by_normals(wi));
             }
             let mirror = (shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo).as_vec3();
@@ -88,7 +88,7 @@ impl Tracer<'_> {
             let wide = if chosen { narrow } else { look(gathered.radius * SQRT_2, OUTER) - radiance };
             [wide, narrow]
         } else {
-            [Vec3::ZERO; 2]
+            [Color::ZERO; 2]
         };
         let area = std::f32::consts::PI * gathered.radius * gathered.radius;
         let density = gathered.photons as f32 / area;
@@ -108,9 +108,9 @@ impl Tracer<'_> {
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
-    ) -> Vec3 {
+    ) -> Color {
         let radius = branch.cone.after(surface.t).width as f32;
-        let mut dot = Vec3::ZERO;
+        let mut dot = Color::ZERO;
         caustics.map.within(surface.p.as_vec3(), shading.ng.as_vec3(), radius, |hit| {
             let most = hit.power.max_element();
             if most > 0.0 {

@@ -4,11 +4,11 @@
 //! Lambert layer and the normalised Phong highlight of exponent s. Any surface in between blocks
 //! light, glass as well: what glass lets through is a caustic.
 
+use super::branch::{Branch, LIGHTS};
 use super::light::{Arrival, LightSample};
-use super::path::{Branch, LIGHTS};
 use super::{Tally, Tracer};
 use crate::build::{MediaSet, Shading, Surface};
-use crate::math::{Ray, Vec3};
+use crate::math::{Color, Ray};
 use crate::optics::EmitterKind;
 use crate::plan::Carriers;
 use std::f64::consts::{FRAC_1_PI, TAU};
@@ -21,38 +21,37 @@ impl Tracer<'_> {
     /// Lambert layer.
     pub(super) fn direct(
         &self,
-        base: Vec3,
+        base: Color,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
         tally: &mut Tally,
-    ) -> Vec3 {
+    ) -> Color {
         let (carried, sequence) = (self.carried(branch), branch.sequence);
-        let if_carried = |effect, weight| if carried.any(effect) { weight } else { Vec3::ZERO };
-        let lamps = [if_carried(Carriers::DIRECT, base), if_carried(Carriers::HIGHLIGHTS, shading.ks)];
+        let if_carried = |effect, weight| if carried.any(effect) { weight } else { Color::ZERO };
+        let lamps =
+            Lobes::of(if_carried(Carriers::DIRECT, base), if_carried(Carriers::HIGHLIGHTS, shading.ks));
         // Light from all around has no middle that a highlight could show.
-        let shine = if self.plan.soft_shadows { shading.ks } else { Vec3::ZERO };
-        let sky = [base, shine].map(|weight| if_carried(Carriers::ENVIRONMENT, weight));
-        let mut sum = Vec3::ZERO;
+        let shine = if self.plan.soft_shadows { shading.ks } else { Color::ZERO };
+        let sky =
+            Lobes::of(if_carried(Carriers::ENVIRONMENT, base), if_carried(Carriers::ENVIRONMENT, shine));
+        let mut sum = Color::ZERO;
         for (i, emitter) in self.world.emitters.iter().enumerate() {
-            let lobes = if matches!(emitter.kind, EmitterKind::Environment) { sky } else { lamps };
-            if lobes == [Vec3::ZERO; 2] {
+            let lobes = if matches!(emitter.kind, EmitterKind::Environment) { &sky } else { &lamps };
+            if lobes.black {
                 continue;
             }
-            let part = |k, tally: &mut Tally| {
+            let mut light = Color::ZERO;
+            for k in 0..emitter.samples {
                 // Only emitters with an extent draw it.
                 let drawn =
                     || sequence.dimension(LIGHTS).dimension(i as u64).split(k, emitter.samples).pair();
                 let u = || if self.plan.soft_shadows { drawn() } else { MIDDLE };
-                self.once(i, lobes, surface, shading, &branch.media, u, tally)
-            };
-            let light = if emitter.samples == 1 {
-                part(0, tally)
-            } else {
-                let mut light = Vec3::ZERO;
-                (0..emitter.samples).for_each(|k| light += part(k, tally));
-                light / emitter.samples as f32
-            };
+                light += self.once(i, lobes, surface, shading, &branch.media, u, tally);
+            }
+            if emitter.samples > 1 {
+                light /= emitter.samples as f32;
+            }
             tally.note(|recorder| recorder.light(&emitter.name, light));
             sum += light;
         }
@@ -65,23 +64,58 @@ impl Tracer<'_> {
     fn once(
         &self,
         emitter: usize,
-        lobes: [Vec3; 2],
+        lobes: &Lobes,
         surface: &Surface,
         shading: &Shading,
         media: &MediaSet,
         u: impl FnOnce() -> [f64; 2],
         tally: &mut Tally,
-    ) -> Vec3 {
-        let Some(sample) = self.light_sample(&self.world.emitters[emitter], surface, shading, u) else {
-            return Vec3::ZERO;
-        };
-        let value = sample.value * reflected_share(lobes, shading, &sample);
-        if value == Vec3::ZERO {
-            return Vec3::ZERO;
+    ) -> Color {
+        let kind = &self.world.emitters[emitter].kind;
+        if kind.extended() {
+            return self.once_extended(emitter, lobes, surface, shading, media, u, tally);
+        }
+        let sample = LightSample::without_extent(kind, surface.p);
+        sample.map_or(Color::ZERO, |s| self.arriving(emitter, lobes, surface, shading, media, &s, tally))
+    }
+
+    /// The same of an emitter with an extent: apart, so that points need not carry its arithmetic along.
+    #[expect(clippy::too_many_arguments, reason = "as above")]
+    #[inline(never)]
+    fn once_extended(
+        &self,
+        emitter: usize,
+        lobes: &Lobes,
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        u: impl FnOnce() -> [f64; 2],
+        tally: &mut Tally,
+    ) -> Color {
+        let sample = self.extended_sample(&self.world.emitters[emitter].kind, surface, shading, u);
+        sample.map_or(Color::ZERO, |s| self.arriving(emitter, lobes, surface, shading, media, &s, tally))
+    }
+
+    /// What of a sample's light the point sends on, if nothing hides it.
+    #[expect(clippy::too_many_arguments, reason = "as above")]
+    #[inline(always)]
+    fn arriving(
+        &self,
+        emitter: usize,
+        lobes: &Lobes,
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        sample: &LightSample,
+        tally: &mut Tally,
+    ) -> Color {
+        let value = sample.value * reflected_share(lobes, shading, sample);
+        if value == Color::ZERO {
+            return Color::ZERO;
         }
         tally.rays.shadow += u64::from(self.plan.shadows);
-        if !self.visible(emitter, surface, shading, &sample) {
-            return Vec3::ZERO;
+        if !self.visible(emitter, surface, shading, sample) {
+            return Color::ZERO;
         }
         value * self.world.transmittance(media, sample.distance)
     }
@@ -119,15 +153,29 @@ impl Tracer<'_> {
     }
 }
 
+/// The weights of a point's two layers for light of one kind.
+struct Lobes {
+    base: Color,
+    ks: Color,
+    black: bool,
+}
+
+impl Lobes {
+    #[inline]
+    fn of(base: Color, ks: Color) -> Lobes {
+        Lobes { base, ks, black: base == Color::ZERO && ks == Color::ZERO }
+    }
+}
+
 /// f(wo, wi)·cosθ_i of the Lambert layer and of the highlight, each of its weight.
 #[inline]
-fn reflected_share([base, ks]: [Vec3; 2], shading: &Shading, sample: &LightSample) -> Vec3 {
+fn reflected_share(&Lobes { base, ks, .. }: &Lobes, shading: &Shading, sample: &LightSample) -> Color {
     let cos = sample.wi.dot(shading.ns);
     if cos <= 0.0 {
-        return Vec3::ZERO;
+        return Color::ZERO;
     }
     let lambert = base * (cos * FRAC_1_PI) as f32;
-    if ks == Vec3::ZERO {
+    if ks == Color::ZERO {
         return lambert;
     }
     lambert + highlight(ks, shading, sample, cos)
@@ -135,11 +183,11 @@ fn reflected_share([base, ks]: [Vec3; 2], shading: &Shading, sample: &LightSampl
 
 /// The Phong highlight's part of it.
 #[inline(never)]
-fn highlight(ks: Vec3, shading: &Shading, sample: &LightSample, cos: f64) -> Vec3 {
+fn highlight(ks: Color, shading: &Shading, sample: &LightSample, cos: f64) -> Color {
     let mirror = shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo;
     let cos_alpha = mirror.dot(sample.wi);
     if cos_alpha <= 0.0 {
-        return Vec3::ZERO;
+        return Color::ZERO;
     }
     let s = shading.material.shininess;
     ks * ((s + 2.0) / TAU * libm::pow(cos_alpha.min(1.0), s) * cos) as f32

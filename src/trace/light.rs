@@ -2,8 +2,8 @@
 
 use super::Tracer;
 use crate::build::{Geometry, Hit, Shading, Surface};
-use crate::math::{DVec3, Frame, Ray, Vec3, sampling};
-use crate::optics::{Emitter, EmitterKind, Shape, TexturePoint, sample_triangle_direction, spot_falloff};
+use crate::math::{Color, DVec3, Frame, Ray, sampling};
+use crate::optics::{EmitterKind, Shape, TexturePoint, sample_triangle_direction, spot_falloff};
 use std::f64::consts::FRAC_1_PI;
 
 /// Light from one direction.
@@ -12,7 +12,7 @@ pub struct LightSample {
     pub wi: DVec3,
     /// Radiance over density (1/sr), or intensity over squared distance: W·m⁻² for a surface that
     /// faces it.
-    pub value: Vec3,
+    pub value: Color,
     /// Metres to the light along `wi`; infinite for light from afar.
     pub distance: f64,
     pub arrival: Arrival,
@@ -33,30 +33,23 @@ pub enum Arrival {
     },
 }
 
-impl Tracer<'_> {
-    #[inline]
-    pub(super) fn light_sample(
-        &self,
-        emitter: &Emitter,
-        surface: &Surface,
-        shading: &Shading,
-        u: impl FnOnce() -> [f64; 2],
-    ) -> Option<LightSample> {
-        let p = surface.p;
-        match &emitter.kind {
+impl LightSample {
+    /// Of an emitter without an extent, as the point `p` sees it.
+    #[inline(always)]
+    pub fn without_extent(kind: &EmitterKind, p: DVec3) -> Option<LightSample> {
+        match kind {
             EmitterKind::Point { position, intensity, falloff } => {
-                let (wi, distance) = towards(p, *position)?;
-                let distance2 = distance * distance;
+                let (wi, distance, inverse) = towards(p, *position)?;
                 let attenuation = match falloff {
-                    None => 1.0 / distance2,
-                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance + c2 * distance2),
+                    None => inverse * inverse,
+                    Some([c0, c1, c2]) => 1.0 / (c0 + c1 * distance + c2 * distance * distance),
                 };
                 let value = *intensity * attenuation as f32;
                 Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
             EmitterKind::Spot { position, axis, cos_inner, cos_outer, intensity } => {
-                let (wi, distance) = towards(p, *position)?;
-                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) / (distance * distance);
+                let (wi, distance, inverse) = towards(p, *position)?;
+                let share = spot_falloff(-wi.dot(*axis), *cos_inner, *cos_outer) * inverse * inverse;
                 let value = *intensity * share as f32;
                 Some(LightSample { wi, value, distance, arrival: Arrival::Point { p: *position } })
             }
@@ -64,21 +57,23 @@ impl Tracer<'_> {
                 let (wi, value) = (*to_light, *irradiance);
                 Some(LightSample { wi, value, distance: f64::INFINITY, arrival: Arrival::Infinite })
             }
-            _ => self.extended_sample(emitter, surface, shading, u),
+            _ => None,
         }
     }
+}
 
-    /// The same of an emitter with an extent: apart, so that points need not carry its arithmetic along.
+impl Tracer<'_> {
+    /// The same of an emitter with an extent.
     #[inline(never)]
-    fn extended_sample(
+    pub(super) fn extended_sample(
         &self,
-        emitter: &Emitter,
+        kind: &EmitterKind,
         surface: &Surface,
         shading: &Shading,
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<LightSample> {
         let p = surface.p;
-        match &emitter.kind {
+        match kind {
             EmitterKind::Point { .. } | EmitterKind::Spot { .. } | EmitterKind::Directional { .. } => None,
             // From where the shadow ray starts: a lamp's own surface must not be met from its other side.
             EmitterKind::Shape { instance } => {
@@ -138,7 +133,7 @@ impl Tracer<'_> {
             Some(Hit { t, instance: index, primitive: 0, b: [0.0; 3] })
         })?;
         let radiance = self.emitted_towards(&ray, &hit);
-        (pdf > 0.0 && pdf.is_finite() && radiance != Vec3::ZERO).then(|| LightSample {
+        (pdf > 0.0 && pdf.is_finite() && radiance != Color::ZERO).then(|| LightSample {
             wi: ray.dir,
             value: radiance / pdf as f32,
             distance: hit.t,
@@ -172,7 +167,7 @@ impl Tracer<'_> {
         let (t, b) = plane_hit(&ray, corners)?;
         let hit = Hit { t, instance: index, primitive: triangle, b };
         let radiance = self.emitted_towards(&ray, &hit);
-        if pdf.is_nan() || pdf <= 0.0 || radiance == Vec3::ZERO {
+        if pdf.is_nan() || pdf <= 0.0 || radiance == Color::ZERO {
             return None;
         }
         let there = self.world.surface(&ray, &hit);
@@ -188,7 +183,7 @@ impl Tracer<'_> {
         if !self.plan.soft_shadows {
             // The middle of the surface's cosine, which stands for all of the sky.
             let (wi, value) = (shading.ns, environment.radiance(shading.ns) * std::f32::consts::PI);
-            return (value != Vec3::ZERO).then_some(LightSample {
+            return (value != Color::ZERO).then_some(LightSample {
                 wi,
                 value,
                 distance: f64::INFINITY,
@@ -208,7 +203,7 @@ impl Tracer<'_> {
         let cosine = wi.dot(shading.ns).max(0.0) * FRAC_1_PI;
         let pdf = (environment.pdf(wi) + cosine + highlight) / strategies;
         let radiance = environment.radiance(wi);
-        (pdf > 0.0 && radiance != Vec3::ZERO).then(|| LightSample {
+        (pdf > 0.0 && radiance != Color::ZERO).then(|| LightSample {
             wi,
             value: radiance / pdf as f32,
             distance: f64::INFINITY,
@@ -217,7 +212,7 @@ impl Tracer<'_> {
     }
 
     /// Radiance that an emitting surface sends back along a ray that hits it.
-    fn emitted_towards(&self, ray: &Ray, hit: &Hit) -> Vec3 {
+    fn emitted_towards(&self, ray: &Ray, hit: &Hit) -> Color {
         let world = self.world;
         let binding = &world.bindings[world.instances[hit.instance as usize].binding as usize];
         if let [only] = binding[..] {
@@ -231,7 +226,7 @@ impl Tracer<'_> {
         let surface = world.surface(ray, hit);
         let material = &world.materials[surface.material.0 as usize];
         if !material.emits_back && surface.ng.dot(ray.dir) >= 0.0 {
-            return Vec3::ZERO;
+            return Color::ZERO;
         }
         let point = TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
         material.emission.at(&world.textures, &point)
@@ -246,7 +241,7 @@ struct Highlight {
 
 impl Highlight {
     fn of(shading: &Shading) -> Option<Highlight> {
-        (shading.ks != Vec3::ZERO).then(|| Highlight {
+        (shading.ks != Color::ZERO).then(|| Highlight {
             mirror: shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo,
             exponent: shading.material.shininess,
         })
@@ -267,11 +262,13 @@ impl Highlight {
     }
 }
 
-/// Unit direction and distance from one point to another.
-fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64)> {
+/// Unit direction and distance from one point to another, and the inverse of the distance.
+#[inline]
+fn towards(from: DVec3, to: DVec3) -> Option<(DVec3, f64, f64)> {
     let d = to - from;
     let distance = d.length();
-    (distance > 0.0).then(|| (d * (1.0 / distance), distance))
+    let inverse = 1.0 / distance;
+    (distance > 0.0).then(|| (d * inverse, distance, inverse))
 }
 
 /// Where a ray meets the plane of a triangle, with barycentric coordinates put inside of it.

@@ -5,6 +5,7 @@
 
 mod antialias;
 mod bounce;
+mod branch;
 mod caustic;
 mod direct;
 mod light;
@@ -20,7 +21,7 @@ mod words;
 
 use crate::build::World;
 use crate::index::Caustics;
-use crate::math::{DVec3, Health, Place, Vec3};
+use crate::math::{Color, DVec3, Health, Place};
 use crate::plan::Plan;
 pub use path::Scratch;
 pub use probe::{Kind, LUMINANCE, Look, Parts, Probe, Probes};
@@ -67,14 +68,14 @@ pub struct Tally {
     /// Whether the bias of photons is looked at; and what it is by [`Look`], of caustic and indirect light,
     /// summed over the samples since it was cleared.
     probing: bool,
-    bias: [[Vec3; 2]; 2],
+    bias: [[Color; 2]; 2],
     /// Takes down what is traced, where that is asked for.
     recorder: Option<Box<Recorder>>,
 }
 
 impl Tally {
     /// Notes the blur's bias, by [`Look`], of caustic (0) or indirect (1) light that the camera sees so much of.
-    fn blurred(&mut self, kind: usize, throughput: Vec3, bias: [Vec3; 2]) {
+    fn blurred(&mut self, kind: usize, throughput: Color, bias: [Color; 2]) {
         for (sums, seen) in self.bias.iter_mut().zip(bias) {
             sums[kind] += throughput * seen;
         }

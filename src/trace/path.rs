@@ -10,73 +10,14 @@
 //! more than about 1 / split_weight branches. (n₁/n₂)² is the compression of solid angle across an
 //! interface (Veach 1997, 5.2).
 
-use super::bounce;
-use super::record::{Fate, InterfaceRecord, Recorder};
+use super::branch::{BOUNCE, Branch, Class, LENS, MIRROR, REFLECTED, REFRACTED, WAVELENGTH};
+use super::record::{InterfaceRecord, Recorder};
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
-use crate::build::{Cone, Crossing, MediaSet, Shading, Surface};
+use crate::build::{Cone, Crossing, Hit, MediaSet, Shading, Surface};
 use crate::math::random::Sequence;
-use crate::math::{DVec2, Ray, Vec3};
+use crate::math::{Color, DVec2, Ray};
 use crate::plan::Carriers;
-
-/// The first specular event of a path, which decides the layer that its light counts to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Class {
-    Direct,
-    Reflection,
-    Refraction,
-}
-
-impl Class {
-    fn then(self, event: Class) -> Class {
-        if self == Class::Direct { event } else { self }
-    }
-}
-
-/// A part of a path that is still to be followed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Branch {
-    pub ray: Ray,
-    pub throughput: Vec3,
-    pub media: MediaSet,
-    pub cone: Cone,
-    /// Specular events in a row.
-    pub depth: u32,
-    /// Diffuse surfaces behind it.
-    pub bounces: u32,
-    /// µm, once something has dispersed.
-    pub wavelength: Option<f64>,
-    pub sequence: Sequence,
-    pub class: Class,
-}
-
-impl Branch {
-    /// What the time of following it counts to.
-    fn part(&self) -> Part {
-        match self.class {
-            _ if self.bounces > 0 => Part::Bounce,
-            Class::Direct => Part::Camera,
-            Class::Reflection => Part::Reflection,
-            Class::Refraction => Part::Refraction,
-        }
-    }
-}
-
-/// Dimensions of a path vertex's random values.
-pub(super) const LIGHTS: u64 = 1;
-const ROULETTE: u64 = 2;
-pub(super) const MIRROR: u64 = 3;
-pub(super) const REFLECTED: u64 = 4;
-pub(super) const REFRACTED: u64 = 5;
-
-pub(super) const BOUNCE: u64 = 7;
-pub(super) const COVERAGE: u64 = 8;
-pub(super) const INNER: u64 = 10;
-pub(super) const OUTER: u64 = 11;
-const WAVELENGTH: u64 = 9;
-
-/// Dimensions of a camera sample.
-const LENS: u64 = 6;
 
 /// Storage that samples of one tile use again, and what holds for all of them.
 pub struct Scratch {
@@ -117,30 +58,33 @@ impl Tracer<'_> {
         tally.health.samples += 1;
         tally.watch.begin();
         tally.note(|recorder| recorder.begin(film));
-        scratch.sample = Sample::default();
+        scratch.sample.clear();
         scratch.branches.clear();
-        let ray = camera.ray(film, lens);
+        let Ray { origin, dir } = camera.ray(film, lens);
         let mut branch = Branch {
-            ray,
-            throughput: Vec3::ONE,
-            media: scratch.start.unwrap_or_else(|| self.world.media_at(ray.origin)),
-            cone: Cone { width: 0.0, spread: camera.pixel_spread(ray.dir) },
+            ray: Ray { origin, dir },
+            throughput: Color::ONE,
+            media: scratch.start.unwrap_or_else(|| self.world.media_at(origin)),
+            cone: Cone { width: 0.0, spread: camera.pixel_spread(dir) },
             depth: 0,
             bounces: 0,
             wavelength: None,
             sequence,
             class: Class::Direct,
         };
+        tally.watch.enter(Part::Camera);
+        let mut hit = self.world.nearest_from_eye(&branch.ray, film);
         loop {
-            self.follow(&mut branch, &mut scratch.sample, &mut scratch.branches, tally);
-            match scratch.branches.pop() {
-                Some(next) => branch = next,
-                None => {
-                    tally.note(|recorder| recorder.end(&scratch.sample));
-                    return &scratch.sample;
-                }
+            let goes_on = self.follow(&mut branch, hit, &mut scratch.sample, &mut scratch.branches, tally);
+            if !goes_on {
+                let Some(next) = scratch.branches.pop() else { break };
+                branch = next;
             }
+            tally.watch.enter(branch.part());
+            hit = self.world.nearest(&branch.ray, f64::INFINITY);
         }
+        tally.note(|recorder| recorder.end(&scratch.sample));
+        &scratch.sample
     }
 
     /// What light the path carries from where the branch is.
@@ -153,17 +97,21 @@ impl Tracer<'_> {
         }
     }
 
+    /// What the surface that it has hit sends to the eye. Of the ways on from there the last becomes `branch`
+    /// itself, which spares its copies; `todo` takes the others. Whether `branch` goes on.
     #[inline(never)]
-    fn follow(&self, branch: &mut Branch, sample: &mut Sample, todo: &mut Vec<Branch>, tally: &mut Tally) {
-        tally.watch.enter(branch.part());
+    fn follow(
+        &self,
+        branch: &mut Branch,
+        hit: Option<Hit>,
+        sample: &mut Sample,
+        todo: &mut Vec<Branch>,
+        tally: &mut Tally,
+    ) -> bool {
         tally.note(Recorder::arrive);
-        let hit = if branch.depth == 0 && branch.bounces == 0 {
-            self.world.nearest_from_eye(&branch.ray)
-        } else {
-            self.world.nearest(&branch.ray, f64::INFINITY)
-        };
         let Some(hit) = hit else {
-            return self.deposit(sample, branch, self.leaving(branch), tally);
+            self.deposit(sample, branch, self.leaving(branch), tally);
+            return false;
         };
         let mut surface = self.world.surface_here(&branch.ray, &hit);
         let mut behind = None;
@@ -172,57 +120,82 @@ impl Tracer<'_> {
         }
         branch.throughput *= self.world.transmittance(&branch.media, surface.t);
         let wo = -branch.ray.dir;
-        let mut shading = Shading::new(self.world, &surface, wo, &branch.cone);
+        let mut shading = Shading::bare(self.world, &surface, wo);
+        shading.look_up(self.world, &surface, &branch.cone);
         if self.wants.first_hit && branch.depth == 0 && branch.bounces == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
-        let crossing =
+        let mut crossing =
             self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
-        match (crossing, behind) {
-            (Some(crossing), Some(opaque)) if crossing.after.top() == branch.media.top() => {
-                // Nothing is left here, so that what is opaque shows.
-                surface = self.world.surface(&branch.ray, &opaque);
-                shading = Shading::new(self.world, &surface, wo, &branch.cone);
-            }
-            (Some(crossing), _) => {
-                if crossing.after.top() == branch.media.top() {
-                    // Within an object of higher priority this surface does not exist.
-                    let ray = self.world.leaving(&surface, crossing.tolerance, branch.ray.dir);
-                    let cone = branch.cone.after(surface.t);
-                    let next = Branch { ray, media: crossing.after, cone, ..*branch };
-                    tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
-                    return self.push(next, Vec3::ONE, 0, branch.class, todo, tally);
-                }
-                self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally);
-            }
-            _ => {}
+        if let Some(through) = crossing.take_if(|through| through.after.top() == branch.media.top()) {
+            let Some(opaque) = behind else {
+                // Within an object of higher priority this surface does not exist.
+                tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
+                let Some(step) = self.step(branch, Color::ONE, 0, branch.class, tally) else { return false };
+                branch.ray = self.world.leaving(&surface, through.tolerance, branch.ray.dir);
+                branch.cone = branch.cone.after(surface.t);
+                branch.media = through.after;
+                step.take(branch);
+                return true;
+            };
+            // Nothing is left here, so that what is opaque shows.
+            surface = self.world.surface(&branch.ray, &opaque);
+            shading = Shading::new(self.world, &surface, wo, &branch.cone);
         }
         // After a bounce, lights have been counted where the path left.
         let carried = self.carried(branch);
         let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
-        let emitted = if seen { shading.emitted() } else { Vec3::ZERO };
+        let emitted = if seen { shading.emitted() } else { Color::ZERO };
         let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
         tally.note(|recorder| recorder.meet(self.world, &surface, emitted));
         self.deposit(sample, branch, radiance, tally);
-        if shading.km != Vec3::ZERO && carried.any(Carriers::REFLECTION) {
-            let wi = shading.mirrored(&mut tally.health);
-            let ray = self.world.leaving(&surface, surface.p_error, wi);
-            let next = Branch { ray, cone: branch.cone.after(surface.t), ..*branch };
+        if shading.km != Color::ZERO && carried.any(Carriers::REFLECTION) {
             tally.rays.reflection += 1;
-            self.push(next, shading.km, MIRROR, Class::Reflection, todo, tally);
+            if let Some(step) = self.step(branch, shading.km, MIRROR, Class::Reflection, tally) {
+                if crossing.is_none() {
+                    self.reflect(branch, &surface, &shading, surface.p_error, tally);
+                    step.take(branch);
+                    return true;
+                }
+                let mut next = *branch;
+                self.reflect(&mut next, &surface, &shading, surface.p_error, tally);
+                step.take(&mut next);
+                todo.push(next);
+            }
         }
+        match crossing {
+            Some(crossing) => {
+                self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally)
+            }
+            None => false,
+        }
+    }
+
+    /// Turns the branch around at a surface that it has come to.
+    #[inline]
+    fn reflect(
+        &self,
+        branch: &mut Branch,
+        surface: &Surface,
+        shading: &Shading,
+        tolerance: f64,
+        tally: &mut Tally,
+    ) {
+        let wi = shading.mirrored(&mut tally.health);
+        branch.ray = self.world.leaving(surface, tolerance, wi);
+        branch.cone = branch.cone.after(surface.t);
     }
 
     /// What a ray meets that leaves the scene.
     #[inline(never)]
-    fn leaving(&self, branch: &Branch) -> Vec3 {
+    fn leaving(&self, branch: &Branch) -> Color {
         let world = self.world;
         if branch.bounces > 0 {
-            return Vec3::ZERO;
+            return Color::ZERO;
         }
         let (_, absorption) = world.medium(&branch.media);
-        if absorption != Vec3::ZERO {
-            return Vec3::ZERO;
+        if absorption != Color::ZERO {
+            return Color::ZERO;
         }
         let carried = self.carried(branch);
         match &world.environment {
@@ -230,111 +203,80 @@ impl Tracer<'_> {
                 if carried.any(Carriers::ENVIRONMENT) {
                     environment.radiance(branch.ray.dir)
                 } else {
-                    Vec3::ZERO
+                    Color::ZERO
                 }
             }
             _ if carried.any(Carriers::SEEN) => world.background,
-            _ => Vec3::ZERO,
+            _ => Color::ZERO,
         }
     }
 
-    /// Pushes the reflected and the refracted branch of an interface; `touches` if something opaque lies
-    /// right behind it.
+    /// Sends the branch on through an interface, and `todo` what it reflects, or the branch itself where
+    /// nothing goes through; `touches` if something opaque lies right behind it. Whether `branch` goes on.
     #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
     fn interface(
         &self,
-        branch: &Branch,
+        branch: &mut Branch,
         surface: &Surface,
         shading: &Shading,
         crossing: &Crossing,
         touches: bool,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
-    ) {
+    ) -> bool {
         let u = || branch.sequence.dimension(WAVELENGTH).value();
         let (eta, colour) = self.world.relative_ior(&branch.media, &crossing.after, branch.wavelength, u);
         let interface = shading.interface(eta);
-        let weight = (Vec3::ONE - shading.km) * shading.kt * colour.weight;
-        if weight == Vec3::ZERO {
-            return;
+        let weight = (Color::ONE - shading.km) * shading.kt * colour.weight;
+        if weight == Color::ZERO {
+            return false;
         }
         let wavelength = colour.um;
-        let cone = branch.cone.after(surface.t);
         let carried = self.carried(branch);
         tally.note(|recorder| {
             recorder.interface(InterfaceRecord::new(self.world, branch, crossing, wavelength, &interface))
         });
+        let wi = if interface.reflectance < 1.0 && carried.any(Carriers::REFRACTION) {
+            shading.refracted(eta, &interface, &mut tally.health)
+        } else {
+            None
+        };
         if interface.reflectance > 0.0 && carried.any(Carriers::REFLECTION) {
-            let wi = shading.mirrored(&mut tally.health);
-            let ray = self.world.leaving(surface, crossing.tolerance, wi);
             tally.rays.reflection += 1;
             let weight = weight * interface.reflectance as f32;
-            self.push(
-                Branch { ray, cone, wavelength, ..*branch },
-                weight,
-                REFLECTED,
-                Class::Reflection,
-                todo,
-                tally,
-            );
-        }
-        if interface.reflectance < 1.0 && carried.any(Carriers::REFRACTION) {
-            let Some(wi) = shading.refracted(eta, &interface, &mut tally.health) else { return };
-            // From before the interface, which is no longer there for it, so that what touches is met.
-            let ray = if touches {
-                Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi)
-            } else {
-                self.world.leaving(surface, crossing.tolerance, wi)
-            };
-            tally.rays.refraction += 1;
-            let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
-            let next =
-                Branch { ray, media: crossing.after, cone: cone.refracted(eta), wavelength, ..*branch };
-            self.push(next, weight, REFRACTED, Class::Refraction, todo, tally);
-        }
-    }
-
-    /// Adds a branch, or drops it by chance in proportion to its weight, or by the depth limit.
-    fn push(
-        &self,
-        mut branch: Branch,
-        weight: Vec3,
-        event: u64,
-        class: Class,
-        todo: &mut Vec<Branch>,
-        tally: &mut Tally,
-    ) {
-        branch.throughput *= weight;
-        if event != BOUNCE {
-            branch.depth += 1;
-        }
-        branch.sequence = branch.sequence.dimension(event);
-        branch.class = branch.class.then(class);
-        let heaviest = branch.throughput.max_element();
-        if heaviest <= 0.0 || heaviest.is_nan() {
-            tally.note(|recorder| recorder.send(&branch, event, Fate::Weightless));
-            return;
-        }
-        if branch.depth > self.plan.max_depth {
-            tally.cut.paths += 1;
-            tally.cut.weight += f64::from(heaviest);
-            tally.note(|recorder| recorder.send(&branch, event, Fate::DepthLimit));
-            return;
-        }
-        let survival = if event == BOUNCE {
-            bounce::survival(f64::from(heaviest), branch.bounces)
-        } else {
-            f64::from(heaviest) / self.plan.split_weight
-        };
-        if survival < 1.0 {
-            if branch.sequence.dimension(ROULETTE).value() >= survival {
-                tally.note(|recorder| recorder.send(&branch, event, Fate::Roulette));
-                return;
+            if let Some(step) = self.step(branch, weight, REFLECTED, Class::Reflection, tally) {
+                let alone = wi.is_none();
+                let mut copy;
+                let next = if alone {
+                    &mut *branch
+                } else {
+                    copy = *branch;
+                    &mut copy
+                };
+                self.reflect(next, surface, shading, crossing.tolerance, tally);
+                next.wavelength = wavelength;
+                step.take(next);
+                if alone {
+                    return true;
+                }
+                todo.push(*next);
             }
-            branch.throughput /= survival as f32;
         }
-        tally.note(|recorder| recorder.send(&branch, event, Fate::Followed));
-        todo.push(branch);
+        let Some(wi) = wi else { return false };
+        tally.rays.refraction += 1;
+        let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
+        let Some(step) = self.step(branch, weight, REFRACTED, Class::Refraction, tally) else { return false };
+        // From before the interface, which is no longer there for it, so that what touches is met.
+        branch.ray = if touches {
+            Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi)
+        } else {
+            self.world.leaving(surface, crossing.tolerance, wi)
+        };
+        branch.media = crossing.after;
+        branch.cone = branch.cone.after(surface.t).refracted(eta);
+        branch.wavelength = wavelength;
+        step.take(branch);
+        true
     }
 
     /// What the layers that are not specular send on; the path's further way is pushed.
@@ -346,13 +288,13 @@ impl Tracer<'_> {
         sample: &mut Sample,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
-    ) -> Vec3 {
-        let base = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt) * shading.kd;
-        if base == Vec3::ZERO && shading.ks == Vec3::ZERO {
-            return Vec3::ZERO;
+    ) -> Color {
+        let base = (Color::ONE - shading.km) * (Color::ONE - shading.kt) * shading.kd;
+        if base == Color::ZERO && shading.ks == Color::ZERO {
+            return Color::ZERO;
         }
         let carried = self.carried(branch);
-        let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Vec3::ZERO };
+        let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Color::ZERO };
         tally.watch.enter(Part::Direct);
         tally.note(|recorder| recorder.ambient(ambient));
         let radiance = ambient + self.direct(base, branch, surface, shading, tally);
@@ -370,16 +312,16 @@ impl Tracer<'_> {
     #[expect(clippy::too_many_arguments, reason = "the rest of `shaded`, apart for scenes that do without")]
     fn gathered(
         &self,
-        mut radiance: Vec3,
+        mut radiance: Color,
         carried: Carriers,
-        base: Vec3,
+        base: Color,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
         sample: &mut Sample,
         todo: &mut Vec<Branch>,
         tally: &mut Tally,
-    ) -> Vec3 {
+    ) -> Color {
         if let Some(caustics) = &self.caustics
             && carried.any(Carriers::CAUSTICS)
         {
@@ -410,9 +352,11 @@ impl Tracer<'_> {
         }
         if self.indirect.is_none()
             && branch.bounces < self.plan.bounces
-            && let Some((next, weight)) = self.bounced(branch, base, surface, shading, tally)
+            && let Some((mut next, weight)) = self.bounced(branch, base, surface, shading, tally)
+            && let Some(step) = self.step(&next, weight, BOUNCE, branch.class, tally)
         {
-            self.push(next, weight, BOUNCE, branch.class, todo, tally);
+            step.take(&mut next);
+            todo.push(next);
         }
         radiance
     }
@@ -422,15 +366,15 @@ impl Tracer<'_> {
         let world = self.world;
         let specular = shading.km.max(shading.kt);
         FirstHit {
-            albedo: shading.kd * (Vec3::ONE - specular) + specular,
-            normal: shading.ns.as_vec3(),
+            albedo: shading.kd * (Color::ONE - specular) + specular,
+            normal: shading.ns.as_vec3a(),
             depth: (surface.p - world.camera.eye).dot(world.camera.forward) as f32,
-            position: (surface.p + world.origin).as_vec3(),
+            position: (surface.p + world.origin).as_vec3a(),
             object: world.instances[surface.instance as usize].object + 1,
         }
     }
 
-    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Vec3, tally: &mut Tally) {
+    fn deposit(&self, sample: &mut Sample, branch: &Branch, radiance: Color, tally: &mut Tally) {
         let radiance = branch.throughput * radiance;
         tally.note(|recorder| recorder.deposit(branch.throughput, radiance));
         sample.radiance += radiance;

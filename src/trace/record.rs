@@ -3,11 +3,11 @@
 //! A recorder travels with the tally where one is asked for and reads what the path computes; it changes
 //! no value. Without one, each place that could be recorded costs a branch.
 
+use super::branch::{BOUNCE, Branch, MIRROR, REFLECTED, REFRACTED};
 use super::caustic::Caustic;
-use super::path::{BOUNCE, Branch, MIRROR, REFLECTED, REFRACTED};
 use super::{Sample, Tally};
 use crate::build::{Crossing, Surface, World};
-use crate::math::{DVec2, Vec3};
+use crate::math::{Color, DVec2};
 use crate::optics::Interface;
 use serde::Serialize;
 
@@ -231,7 +231,7 @@ impl Recorder {
     }
 
     #[cold]
-    pub(super) fn meet(&mut self, world: &World, surface: &Surface, emitted: Vec3) {
+    pub(super) fn meet(&mut self, world: &World, surface: &Surface, emitted: Color) {
         let object = world.instances[surface.instance as usize].object;
         let met = Met {
             object: world.object_names[object as usize].clone(),
@@ -247,9 +247,9 @@ impl Recorder {
 
     /// A surface that does not exist for the path.
     #[cold]
-    pub(super) fn pass(&mut self, world: &World, surface: &Surface, throughput: Vec3) {
-        self.meet(world, surface, Vec3::ZERO);
-        self.deposit(throughput, Vec3::ZERO);
+    pub(super) fn pass(&mut self, world: &World, surface: &Surface, throughput: Color) {
+        self.meet(world, surface, Color::ZERO);
+        self.deposit(throughput, Color::ZERO);
     }
 
     #[cold]
@@ -260,14 +260,14 @@ impl Recorder {
     }
 
     #[cold]
-    pub(super) fn ambient(&mut self, radiance: Vec3) {
+    pub(super) fn ambient(&mut self, radiance: Color) {
         if let Some(vertex) = self.vertex() {
             vertex.ambient = radiance.to_array();
         }
     }
 
     #[cold]
-    pub(super) fn light(&mut self, light: &str, radiance: Vec3) {
+    pub(super) fn light(&mut self, light: &str, radiance: Color) {
         if let Some(vertex) = self.vertex() {
             vertex.lights.push(LightRecord { light: light.to_owned(), radiance: radiance.to_array() });
         }
@@ -288,7 +288,7 @@ impl Recorder {
     }
 
     #[cold]
-    pub(super) fn deposit(&mut self, throughput: Vec3, radiance: Vec3) {
+    pub(super) fn deposit(&mut self, throughput: Color, radiance: Color) {
         if let Some(vertex) = self.vertex() {
             (vertex.throughput, vertex.adds) = (throughput.to_array(), radiance.to_array());
         }
@@ -296,7 +296,7 @@ impl Recorder {
 
     /// A way on, by the number of its event, and what becomes of it.
     #[cold]
-    pub(super) fn send(&mut self, branch: &Branch, event: u64, fate: Fate) {
+    pub(super) fn send(&mut self, throughput: Color, event: u64, fate: Fate) {
         let event = match event {
             MIRROR => Event::Mirrored,
             REFLECTED => Event::Reflected,
@@ -304,7 +304,7 @@ impl Recorder {
             BOUNCE => Event::Diffuse,
             _ => Event::Unnoticed,
         };
-        let throughput = branch.throughput.to_array();
+        let throughput = throughput.to_array();
         let Some(vertices) = self.vertices() else { return };
         let from = vertices.len().wrapping_sub(1);
         let Some(vertex) = vertices.last_mut() else { return };

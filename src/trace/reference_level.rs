@@ -3,14 +3,14 @@
 
 use super::{Scratch, Tally, Tracer};
 use crate::math::random::{Sequence, Stage, mix};
-use crate::math::{DVec2, Vec3};
+use crate::math::{Color, DVec2};
 
 /// Samples at most, spread evenly over the image.
 const SAMPLES: u32 = 1024;
 
 /// Rec. 709 luminance.
-pub fn luminance(c: Vec3) -> f32 {
-    c.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+pub fn luminance(c: Color) -> f32 {
+    c.dot(Color::new(0.2126, 0.7152, 0.0722))
 }
 
 /// The median luminance of what is not black; 1 where all is.

@@ -1,7 +1,7 @@
 //! What one camera sample yields.
 
 use super::Probes;
-use crate::math::{Exact, Vec3};
+use crate::math::{Color, Exact};
 
 /// What is wanted of every sample beyond its radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,18 +22,18 @@ pub struct Wants {
 /// The radiance along one camera ray, W·m⁻²·sr⁻¹, and what the ray met first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
-    pub radiance: Vec3,
+    pub radiance: Color,
     /// Light by the first specular event on its way from the eye, where it is wanted apart; their sum is then
     /// `radiance`.
-    pub direct: Vec3,
-    pub reflection: Vec3,
-    pub refraction: Vec3,
+    pub direct: Color,
+    pub reflection: Color,
+    pub refraction: Color,
     /// The part of it that photons brought to the first diffuse surface.
-    pub caustic: Vec3,
+    pub caustic: Color,
     /// The part of it that came by two diffuse surfaces or more.
-    pub indirect: Vec3,
+    pub indirect: Color,
     /// Photons as dots.
-    pub photons: Vec3,
+    pub photons: Color,
     /// Photons by area, 1/m².
     pub photon_density: f32,
     pub first: FirstHit,
@@ -43,25 +43,46 @@ pub struct Sample {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FirstHit {
     /// Diffuse colour; white for what only reflects and transmits.
-    pub albedo: Vec3,
+    pub albedo: Color,
     /// Shading normal, world space.
-    pub normal: Vec3,
+    pub normal: Color,
     /// Distance from the eye along the view direction, metres.
     pub depth: f32,
     /// Scene coordinates, metres.
-    pub position: Vec3,
+    pub position: Color,
     /// Index of the object plus one.
     pub object: u32,
 }
 
 impl Sample {
+    /// Back to black, field by field: a whole new one would be made elsewhere first, and copied.
+    #[inline]
+    pub(super) fn clear(&mut self) {
+        let Sample {
+            radiance,
+            direct,
+            reflection,
+            refraction,
+            caustic,
+            indirect,
+            photons,
+            photon_density,
+            first,
+        } = self;
+        for light in [radiance, direct, reflection, refraction, caustic, indirect, photons] {
+            *light = Color::ZERO;
+        }
+        *photon_density = 0.0;
+        *first = FirstHit::default();
+    }
+
     /// What of it neither photons nor paths from surface to surface brought.
-    pub(super) fn rest(&self) -> Vec3 {
+    pub(super) fn rest(&self) -> Color {
         self.radiance - self.caustic - self.indirect
     }
 
     /// Whether it can be added up: beyond [`Exact::LIMIT`] it counts as infinite.
     pub fn is_finite(&self) -> bool {
-        self.radiance.abs().cmplt(Vec3::splat(Exact::LIMIT as f32)).all()
+        self.radiance.abs().cmplt(Color::splat(Exact::LIMIT as f32)).all()
     }
 }

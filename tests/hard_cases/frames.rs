@@ -8,7 +8,7 @@ use crate::render::shot::shot;
 use crate::render::textures::{shelf, shelf_folder};
 use std::path::Path;
 use terrarium::math::random::{Counter, Stage};
-use terrarium::math::{DVec3, Frame, Ray, Vec3};
+use terrarium::math::{Color, DVec3, Frame, Ray};
 use terrarium::optics::texture::perturbed_normal_from_map;
 use terrarium::optics::{LocalSurface, Shape, Sphere};
 use terrarium::render::Aov;
@@ -24,7 +24,7 @@ fn is_usable(at: &LocalSurface) -> bool {
 
 /// The normal under the map (0.5, 0.5, 1).
 fn flat(at: &LocalSurface) -> DVec3 {
-    perturbed_normal_from_map(Vec3::new(0.5, 0.5, 1.0), 1.0, at.ns, at.dpdu, at.dpdv)
+    perturbed_normal_from_map(Color::new(0.5, 0.5, 1.0), 1.0, at.ns, at.dpdu, at.dpdv)
 }
 
 /// Calls `each` with the surface that a line through the middle of a shape meets.

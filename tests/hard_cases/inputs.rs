@@ -7,7 +7,7 @@ use std::path::Path;
 use terrarium::build::images::{Images, Limits, TextureUse};
 use terrarium::description::{ColorSpace, Format, Texture, UvMapping, Wrap, load_str};
 use terrarium::math::random::{Counter, Stage};
-use terrarium::math::{DVec2, DVec3, Vec3};
+use terrarium::math::{Color, DVec2, DVec3};
 use terrarium::optics::TexturePoint;
 
 #[test]
@@ -84,8 +84,8 @@ fn h52_texture_coordinates() {
                 let mut look = |u: f64, v: f64| {
                     let c = texture.color(&at(u, v));
                     let within =
-                        c.is_finite() && c.cmpge(Vec3::ZERO).all() && c.cmple(most * 1.000_001).all();
-                    bad += u64::from(!within || (name == "one.exr" && c != Vec3::new(0.25, 0.5, 1.0)));
+                        c.is_finite() && c.cmpge(Color::ZERO).all() && c.cmple(most * 1.000_001).all();
+                    bad += u64::from(!within || (name == "one.exr" && c != Color::new(0.25, 0.5, 1.0)));
                     lookups += 1;
                 };
                 for (u, v) in wild.iter().flat_map(|&u| wild.map(|v| (u, v))) {

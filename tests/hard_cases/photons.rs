@@ -6,8 +6,8 @@ use crate::render::caustics::surfaces;
 use crate::render::meshes::folder;
 use std::f64::consts::{PI, TAU};
 use terrarium::index::{Kernel, PhotonMap, Query, Radius};
-use terrarium::math::Vec3;
 use terrarium::math::random::{Counter, Stage};
+use terrarium::math::{Color, Vec3};
 use terrarium::scatter::Photon;
 
 const KERNELS: [Kernel; 3] = [Kernel::Disc, Kernel::Cone { kappa: 1.1 }, Kernel::Epanechnikov];
@@ -33,7 +33,7 @@ fn floor(count: usize, item: u64) -> Vec<Photon> {
 
 /// The red irradiance at a point of the plane.
 fn irradiance(map: &PhotonMap, p: Vec3, radius: Radius, kernel: Kernel) -> f64 {
-    f64::from(map.gather(&Query { p, n: Vec3::Y, radius }, kernel, |_| Vec3::ONE).radiance.x)
+    f64::from(map.gather(&Query { p, n: Vec3::Y, radius }, kernel, |_| Color::ONE).radiance.x)
 }
 
 /// Mean and standard deviation of the k-nearest estimate over the truth, in an even field.
@@ -85,13 +85,13 @@ fn h29_fewer_photons_than_k() {
         for count in [0, 1, 49] {
             let near = floor(count, 5).into_iter().map(|p| Photon { position: p.position * 0.3, ..p });
             let map = PhotonMap::new(near.collect());
-            let gathered = map.gather(&query, Kernel::Disc, |_| Vec3::splat(brdf));
+            let gathered = map.gather(&query, Kernel::Disc, |_| Color::splat(brdf));
             let expected = f64::from(brdf) * count as f64 / (PI * 0.25);
             let what = format!("{count} photons where k is 50: Φ·f/(π r²max) each");
             row.is_close(&what, f64::from(gathered.radiance.x), expected, 1e-6);
         }
         let unbounded = Query { radius: Radius::Nearest { k: 50, min: 0.0, max: f32::INFINITY }, ..query };
-        let gathered = PhotonMap::new(floor(10, 5)).gather(&unbounded, Kernel::Epanechnikov, |_| Vec3::ONE);
+        let gathered = PhotonMap::new(floor(10, 5)).gather(&unbounded, Kernel::Epanechnikov, |_| Color::ONE);
         row.is("without a largest radius", f64::from(gathered.radiance.x), 0.0, 0.0);
     });
 }
@@ -224,7 +224,7 @@ fn raw_estimate(row: &mut Record) {
         [("a straight edge", Vec3::new(0.0, 0.0, 0.5), 0.5), ("a corner", Vec3::ZERO, 0.25)]
     {
         let query = Query { p, n: Vec3::Y, radius: Radius::Fixed(0.2) };
-        let found = map.gather(&query, Kernel::Disc, |_| Vec3::ONE);
+        let found = map.gather(&query, Kernel::Disc, |_| Color::ONE);
         let estimate = f64::from(found.radiance.x) / count as f64;
         row.is(
             &format!("raw estimate at {what} over the truth (4σ)"),
@@ -234,7 +234,7 @@ fn raw_estimate(row: &mut Record) {
         );
     }
     let behind = Query { p: Vec3::new(0.5, -1e-6, 0.5), n: Vec3::NEG_Y, radius: Radius::Fixed(0.1) };
-    let found = map.gather(&behind, Kernel::Disc, |_| Vec3::ONE);
+    let found = map.gather(&behind, Kernel::Disc, |_| Color::ONE);
     row.is("photons that the other side of a wall of 1e-6 m sees", f64::from(found.photons), 0.0, 0.0);
 }
 

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::f64::consts::{FRAC_1_PI, TAU};
 use terrarium::build::{Cone, Shading, World};
 use terrarium::math::random::{Sequence, Stage};
-use terrarium::math::{DVec3, Ray, Vec3, sampling};
+use terrarium::math::{Color, DVec3, Ray, sampling};
 use terrarium::optics::{Interface, reflected, refracted};
 
 fn ball(layers: &Layers) -> World {
@@ -19,7 +19,7 @@ fn ball(layers: &Layers) -> World {
 
 /// The share of light from all around that goes back towards `wo`, by the directions that paths draw; and by
 /// uniform ones and the formula of the layers. With the standard error of both.
-fn albedo(shading: &Shading, layers: &Layers, base: Vec3) -> ([f64; 2], f64) {
+fn albedo(shading: &Shading, layers: &Layers, base: Color) -> ([f64; 2], f64) {
     let n = 2048u32;
     let [mut drawn, mut even] = [[0.0; 2]; 2];
     let add = |sums: &mut [f64; 2], x: f64| {
@@ -54,7 +54,7 @@ fn no_material_sends_on_more_than_it_gets() {
         let hit = world.nearest(&ray, f64::INFINITY).expect("aimed at it");
         let surface = world.surface(&ray, &hit);
         let shading = Shading::new(&world, &surface, wo, &Cone { width: 0.0, spread: 0.0 });
-        let base = (Vec3::ONE - shading.km) * (Vec3::ONE - shading.kt) * shading.kd;
+        let base = (Color::ONE - shading.km) * (Color::ONE - shading.kt) * shading.kd;
         let ([drawn, even], error) = albedo(&shading, &layers, base);
         let (km, kt) = (f64::from(shading.km.x), f64::from(shading.kt.x));
         let all = km + (1.0 - km) * kt + drawn;

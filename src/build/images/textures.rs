@@ -2,6 +2,7 @@
 
 use super::{Format, ImageError, Limits, LoadedImage, load_within};
 use crate::description::{self, ColorSpace, EnvironmentMap, Reach, Rgb, UvMapping, Wrap};
+use crate::math::Color;
 use crate::optics::Environment;
 use crate::optics::texture::{
     Brick, Checker, Checker3d, Colors, Encoding, ImagePlacement, ImageTexture, ImageWrap, Marble, Noise,
@@ -107,9 +108,9 @@ impl Images {
         turn_deg: f64,
     ) -> Result<Environment, ImageError> {
         let environment = match map {
-            EnvironmentMap::Constant(radiance) => Environment::constant(vec3(radiance)),
+            EnvironmentMap::Constant(radiance) => Environment::constant(color(radiance)),
             EnvironmentMap::Gradient { zenith, horizon, nadir } => {
-                Environment::gradient(vec3(zenith), vec3(horizon), vec3(nadir))
+                Environment::gradient(color(zenith), color(horizon), color(nadir))
             }
             EnvironmentMap::Image { path, color_space } => {
                 let image = self.read(path)?;
@@ -188,9 +189,9 @@ fn linear(texels: Texels, encoding: Encoding) -> Vec<Vec3> {
 }
 
 fn colors(a: &Rgb, b: &Rgb) -> Colors {
-    Colors::new(vec3(a), vec3(b))
+    Colors::new(color(a), color(b))
 }
 
-fn vec3(c: &Rgb) -> Vec3 {
-    Vec3::from(c.0.map(|v| v as f32))
+fn color(c: &Rgb) -> Color {
+    Color::from(c.0.map(|v| v as f32))
 }

@@ -1,13 +1,14 @@
 //! The density estimate where the answer is known.
 
 use super::*;
+use crate::math::Color;
 use crate::scatter::Photon;
 use std::f64::consts::PI;
 
 const KERNELS: [Kernel; 3] = [Kernel::Disc, Kernel::Cone { kappa: 1.1 }, Kernel::Epanechnikov];
 
 fn irradiance(map: &PhotonMap, p: Vec3, radius: Radius, kernel: Kernel) -> Gathered {
-    map.gather(&Query { p, n: Vec3::Y, radius }, kernel, |_| Vec3::ONE)
+    map.gather(&Query { p, n: Vec3::Y, radius }, kernel, |_| Color::ONE)
 }
 
 /// A map in which the estimate at its centre is one lookup of a uniform field: Poisson many photons
@@ -81,8 +82,8 @@ fn each_photon_is_weighed_by_the_brdf_of_its_direction() {
     photons[1].wi = Vec3::new(-0.8, 0.6, 0.0);
     let query = Query { p: Vec3::ZERO, n: Vec3::Y, radius: Radius::Fixed(2.0) };
     let gathered =
-        PhotonMap::new(photons).gather(&query, Kernel::Disc, |wi| Vec3::splat(wi.y * wi.x.max(0.0)));
-    let expected = Vec3::new(1.0, 2.0, 4.0) * (0.48 / (4.0 * std::f32::consts::PI));
+        PhotonMap::new(photons).gather(&query, Kernel::Disc, |wi| Color::splat(wi.y * wi.x.max(0.0)));
+    let expected = Color::new(1.0, 2.0, 4.0) * (0.48 / (4.0 * std::f32::consts::PI));
     assert!((gathered.radiance - expected).length() < 1e-4 * expected.length());
 }
 

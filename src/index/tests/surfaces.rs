@@ -2,10 +2,11 @@
 //! corrects edges; the raw estimate is held to what it must be there.
 
 use super::*;
+use crate::math::Color;
 use crate::scatter::Photon;
 
 fn estimate(map: &PhotonMap, p: Vec3, n: Vec3, radius: f32) -> Gathered {
-    map.gather(&Query { p, n, radius: Radius::Fixed(radius) }, Kernel::Disc, |_| Vec3::ONE)
+    map.gather(&Query { p, n, radius: Radius::Fixed(radius) }, Kernel::Disc, |_| Color::ONE)
 }
 
 /// A wall of 1e-6 with light on one side only.
@@ -17,7 +18,7 @@ fn the_other_side_of_a_thin_wall_is_black() {
     assert_eq!(estimate(&map, behind, Vec3::NEG_Y, 0.1), Gathered { radius: 0.1, ..Gathered::default() });
     let nearest = Radius::Nearest { k: 10, min: 0.0, max: 1.0 };
     let query = Query { p: behind, n: Vec3::NEG_Y, radius: nearest };
-    assert_eq!(map.gather(&query, Kernel::Disc, |_| Vec3::ONE).radiance, Vec3::ZERO);
+    assert_eq!(map.gather(&query, Kernel::Disc, |_| Color::ONE).radiance, Color::ZERO);
 }
 
 /// Light on both sides of the wall, twice as much on one: each side sees its own, by k nearest too.
@@ -34,7 +35,7 @@ fn both_sides_of_a_thin_wall_see_their_own_light() {
     let radius = Radius::Nearest { k: 500, min: 0.0, max: 1.0 };
     for (n, expected) in [(Vec3::Y, 2e4), (Vec3::NEG_Y, 4e4)] {
         let query = Query { p: Vec3::new(0.4, 0.0, 0.6), n, radius };
-        let e = map.gather(&query, Kernel::Disc, |_| Vec3::ONE).radiance.x;
+        let e = map.gather(&query, Kernel::Disc, |_| Color::ONE).radiance.x;
         assert!((e / expected - 1.0).abs() < 4.0 / (498.0f32).sqrt(), "{n}: {e}");
     }
 }

@@ -2,6 +2,7 @@
 //! threads.
 
 use super::*;
+use crate::math::Color;
 use crate::scatter::Photon;
 
 fn random_vec(random: &mut Counter) -> Vec3 {
@@ -93,11 +94,11 @@ fn photons_that_are_not_finite_are_refused_and_counted() {
     let map = PhotonMap::new(photons);
     assert_eq!((map.len(), map.refused()), (3, 13));
     let query = Query { p: Vec3::ZERO, n: Vec3::Y, radius: Radius::Fixed(1.0) };
-    let gathered = map.gather(&query, Kernel::Disc, |_| Vec3::ONE);
-    assert!((gathered.radiance - Vec3::splat(3.0 / std::f32::consts::PI)).length() < 1e-4);
+    let gathered = map.gather(&query, Kernel::Disc, |_| Color::ONE);
+    assert!((gathered.radiance - Color::splat(3.0 / std::f32::consts::PI)).length() < 1e-4);
     for p in [Vec3::NAN, Vec3::INFINITY] {
-        let gathered = map.gather(&Query { p, ..query }, Kernel::Disc, |_| Vec3::ONE);
-        assert_eq!(gathered.radiance, Vec3::ZERO);
+        let gathered = map.gather(&Query { p, ..query }, Kernel::Disc, |_| Color::ONE);
+        assert_eq!(gathered.radiance, Color::ZERO);
     }
 }
 

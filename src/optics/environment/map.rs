@@ -8,6 +8,7 @@
 //! corners do.
 
 use super::{direction, luminance};
+use crate::math::Color;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
@@ -21,7 +22,7 @@ pub struct Map {
     cells: Vec<f64>,
     /// Running sums of the rows' weights.
     row_sums: Vec<f64>,
-    mean: Vec3,
+    mean: Color,
 }
 
 /// The cells between two rows of texel centres.
@@ -74,8 +75,8 @@ impl Map {
             for j in 0..width {
                 let left = (j + width - 1) % width;
                 let (a, b) = (
-                    luminance(above[left]) + luminance(above[j]),
-                    luminance(below[left]) + luminance(below[j]),
+                    luminance(above[left].into()) + luminance(above[j].into()),
+                    luminance(below[left].into()) + luminance(below[j].into()),
                 );
                 sum += 0.5 * (a * row.shares[0] + b * row.shares[1]);
                 cells.push(sum);
@@ -84,11 +85,11 @@ impl Map {
             total += sum;
             row_sums.push(total);
         }
-        let mean = (mean / (2.0 * width as f64)).as_vec3();
+        let mean = (mean / (2.0 * width as f64)).as_vec3a();
         Map { width, height, texels, rows, cells, row_sums, mean }
     }
 
-    pub fn mean(&self) -> Vec3 {
+    pub fn mean(&self) -> Color {
         self.mean
     }
 
@@ -99,15 +100,15 @@ impl Map {
             + size_of_val(self.row_sums.as_slice())
     }
 
-    pub fn radiance(&self, dir: DVec3) -> Vec3 {
+    pub fn radiance(&self, dir: DVec3) -> Color {
         let ([i, j], [ty, tx]) = self.cell(dir);
         let left = (j + self.width - 1) % self.width;
         let row = |r: usize| {
-            let (a, b) = (self.texels[r * self.width + left], self.texels[r * self.width + j]);
+            let [a, b] = [left, j].map(|column| Color::from(self.texels[r * self.width + column]));
             a * (1.0 - tx) + b * tx
         };
         let [above, below] = self.rows[i].texels;
-        (row(above) * (1.0 - ty) + row(below) * ty).min(Vec3::MAX)
+        (row(above) * (1.0 - ty) + row(below) * ty).min(Color::MAX)
     }
 
     pub fn pdf(&self, dir: DVec3) -> f64 {

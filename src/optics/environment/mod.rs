@@ -6,6 +6,7 @@
 
 mod map;
 
+use crate::math::Color;
 use glam::{DVec3, Vec3};
 use map::Map;
 use std::f64::consts::PI;
@@ -21,8 +22,8 @@ pub struct Environment {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    Constant(Vec3),
-    Gradient { zenith: Vec3, horizon: Vec3, nadir: Vec3 },
+    Constant(Color),
+    Gradient { zenith: Color, horizon: Color, nadir: Color },
     Image(Map),
 }
 
@@ -30,18 +31,18 @@ enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnvironmentSample {
     pub dir: DVec3,
-    pub radiance: Vec3,
+    pub radiance: Color,
     pub pdf: f64,
 }
 
 impl Environment {
     /// The same radiance from everywhere. Here and below, channels that are negative or NaN are 0.
-    pub fn constant(radiance: Vec3) -> Environment {
+    pub fn constant(radiance: Color) -> Environment {
         Environment::new(Kind::Constant(clean(radiance)))
     }
 
     /// Linear in the sine of the elevation: nadir (−1), horizon (0), zenith (1).
-    pub fn gradient(zenith: Vec3, horizon: Vec3, nadir: Vec3) -> Environment {
+    pub fn gradient(zenith: Color, horizon: Color, nadir: Color) -> Environment {
         let [zenith, horizon, nadir] = [zenith, horizon, nadir].map(clean);
         Environment::new(Kind::Gradient { zenith, horizon, nadir })
     }
@@ -49,7 +50,7 @@ impl Environment {
     /// An equirectangular image, by rows from the zenith, interpolated bilinearly. Missing texels are
     /// black and surplus ones are ignored; a side of 0 counts as 1.
     pub fn image(width: usize, height: usize, texels: Vec<Vec3>) -> Environment {
-        let texels = texels.into_iter().map(clean).collect();
+        let texels = texels.into_iter().map(|c| clean(c.into()).into()).collect();
         Environment::new(Kind::Image(Map::new(width.max(1), height.max(1), texels)))
     }
 
@@ -69,7 +70,7 @@ impl Environment {
     }
 
     /// Radiance that arrives from the unit direction `dir`; finite.
-    pub fn radiance(&self, dir: DVec3) -> Vec3 {
+    pub fn radiance(&self, dir: DVec3) -> Color {
         let raw = match &self.kind {
             Kind::Constant(radiance) => *radiance,
             Kind::Gradient { zenith, horizon, nadir } => {
@@ -86,13 +87,13 @@ impl Environment {
     /// the cell between four texel centres). `u` in [0, 1)². None where all is black. Every
     /// direction from which light comes has a density above 0.
     pub fn sample(&self, u: [f64; 2]) -> Option<EnvironmentSample> {
-        if self.scaled(Vec3::ONE) == Vec3::ZERO {
+        if self.scaled(Color::ONE) == Color::ZERO {
             return None;
         }
         let (dir, pdf) = match &self.kind {
             Kind::Constant(radiance) => {
                 let dir = direction(2.0 * u[1] - 1.0, 2.0 * PI * u[0]);
-                if *radiance == Vec3::ZERO {
+                if *radiance == Color::ZERO {
                     return None;
                 }
                 (dir, 0.25 / PI)
@@ -113,11 +114,11 @@ impl Environment {
     /// Density, per steradian, with which [`Environment::sample`] gives the unit direction `dir`; 0 where
     /// all is black.
     pub fn pdf(&self, dir: DVec3) -> f64 {
-        if self.scaled(Vec3::ONE) == Vec3::ZERO {
+        if self.scaled(Color::ONE) == Color::ZERO {
             return 0.0;
         }
         match &self.kind {
-            Kind::Constant(radiance) if *radiance == Vec3::ZERO => 0.0,
+            Kind::Constant(radiance) if *radiance == Color::ZERO => 0.0,
             Kind::Constant(_) => 0.25 / PI,
             Kind::Gradient { zenith, horizon, nadir } => Elevation::new(*zenith, *horizon, *nadir)
                 .map_or(0.0, |slope| slope.density(dir.y.clamp(-1.0, 1.0)) / (2.0 * PI)),
@@ -126,7 +127,7 @@ impl Environment {
     }
 
     /// Mean over the sphere.
-    pub fn mean_radiance(&self) -> Vec3 {
+    pub fn mean_radiance(&self) -> Color {
         self.scaled(match &self.kind {
             Kind::Constant(radiance) => *radiance,
             Kind::Gradient { zenith, horizon, nadir } => *zenith * 0.25 + *horizon * 0.5 + *nadir * 0.25,
@@ -139,8 +140,8 @@ impl Environment {
         size_of::<Environment>() + heap
     }
 
-    fn scaled(&self, radiance: Vec3) -> Vec3 {
-        (radiance.as_dvec3() * self.scale).as_vec3().min(Vec3::MAX)
+    fn scaled(&self, radiance: Color) -> Color {
+        (radiance.as_dvec3() * self.scale).as_vec3a().min(Color::MAX)
     }
 
     /// Turning the surroundings one way is looking them up the other way.
@@ -156,12 +157,12 @@ impl Environment {
     }
 }
 
-fn clean(c: Vec3) -> Vec3 {
-    Vec3::from(c.to_array().map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 }))
+fn clean(c: Color) -> Color {
+    Color::from(c.to_array().map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 }))
 }
 
 /// Luminance, which is 0 for black only.
-fn luminance(c: Vec3) -> f64 {
+fn luminance(c: Color) -> f64 {
     crate::optics::texture::LUMINANCE.dot(c.as_dvec3())
 }
 
@@ -182,7 +183,7 @@ struct Elevation {
 
 impl Elevation {
     /// Normalised. None if all is black.
-    fn new(zenith: Vec3, horizon: Vec3, nadir: Vec3) -> Option<Elevation> {
+    fn new(zenith: Color, horizon: Color, nadir: Color) -> Option<Elevation> {
         let [zenith, horizon, nadir] = [zenith, horizon, nadir].map(luminance);
         let total = 0.5 * (zenith + nadir) + horizon;
         (total > 0.0).then(|| Elevation {

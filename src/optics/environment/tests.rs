@@ -18,12 +18,12 @@ fn random_map(width: usize, height: usize) -> Environment {
 }
 
 fn environments() -> Vec<(&'static str, Environment)> {
-    let (zenith, horizon, nadir) = (Vec3::new(0.1, 0.3, 2.0), Vec3::new(0.0, 0.2, 0.1), Vec3::ZERO);
+    let (zenith, horizon, nadir) = (Color::new(0.1, 0.3, 2.0), Color::new(0.0, 0.2, 0.1), Color::ZERO);
     vec![
-        ("constant", Environment::constant(Vec3::new(0.2, 0.5, 1.0))),
+        ("constant", Environment::constant(Color::new(0.2, 0.5, 1.0))),
         ("gradient", Environment::gradient(zenith, horizon, nadir).with_scale(3.0)),
-        ("dark horizon", Environment::gradient(zenith, Vec3::ZERO, horizon)),
-        ("nadir only", Environment::gradient(Vec3::ZERO, Vec3::ZERO, Vec3::ONE)),
+        ("dark horizon", Environment::gradient(zenith, Color::ZERO, horizon)),
+        ("nadir only", Environment::gradient(Color::ZERO, Color::ZERO, Color::ONE)),
         ("map", random_map(16, 8)),
         ("turned map", random_map(12, 7).with_turn_deg(75.0).with_scale(0.1)),
         ("one texel", Environment::image(1, 1, vec![Vec3::ONE])),
@@ -70,7 +70,7 @@ fn light_comes_from_no_direction_that_is_never_sampled() {
     for (name, environment) in environments() {
         for _ in 0..20_000 {
             let dir = direction(2.0 * values.value() - 1.0, 2.0 * PI * values.value());
-            let dark = environment.radiance(dir) == Vec3::ZERO;
+            let dark = environment.radiance(dir) == Color::ZERO;
             assert!(dark || environment.pdf(dir) > 0.0, "{name}: {dir}");
         }
     }
@@ -177,19 +177,19 @@ fn sun_of_one_texel_is_found_by_every_sample() {
 #[test]
 fn black_environments_have_no_samples() {
     let black = [
-        Environment::constant(Vec3::ZERO),
-        Environment::gradient(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO),
+        Environment::constant(Color::ZERO),
+        Environment::gradient(Color::ZERO, Color::ZERO, Color::ZERO),
         Environment::image(4, 2, vec![Vec3::ZERO; 8]),
         Environment::image(0, 0, Vec::new()),
         Environment::image(4, 2, vec![Vec3::splat(f32::NAN); 8]),
-        Environment::constant(Vec3::ONE).with_scale(0.0),
+        Environment::constant(Color::ONE).with_scale(0.0),
         random_map(8, 4).with_scale(0.0),
         random_map(8, 4).with_scale(1e-60),
     ];
     for environment in black {
         assert_eq!(environment.sample([0.3, 0.7]), None);
         assert_eq!(environment.pdf(DVec3::Y), 0.0);
-        assert_eq!(environment.radiance(DVec3::X), Vec3::ZERO);
+        assert_eq!(environment.radiance(DVec3::X), Color::ZERO);
     }
 }
 

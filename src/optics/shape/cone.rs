@@ -32,12 +32,16 @@ pub struct Cone {
     top_radius: f64,
     height: f64,
     caps: bool,
+    p_error: f64,
 }
 
 impl Cone {
     /// `height` > 0, the radii not both 0; equal radii make a cylinder.
     pub fn new(radius: f64, top_radius: f64, height: f64, caps: bool) -> Cone {
-        Cone { radius, top_radius, height, caps }
+        let mut cone = Cone { radius, top_radius, height, caps, p_error: 0.0 };
+        let (min, max) = cone.bounds();
+        cone.p_error = super::p_error(min, max);
+        cone
     }
 
     /// Whether it has its caps, so that it bounds a solid.
@@ -121,8 +125,7 @@ impl Cone {
     }
 
     fn bare_at(&self, p: DVec3, face: u32) -> BareSurface {
-        let (min, max) = self.bounds();
-        let p_error = super::p_error(min, max);
+        let p_error = self.p_error;
         match face {
             SIDE => {
                 let (around, v, r) = self.on_side(p);

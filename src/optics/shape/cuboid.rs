@@ -10,6 +10,7 @@ use crate::optics::LocalSurface;
 pub struct Cuboid {
     min: DVec3,
     max: DVec3,
+    p_error: f64,
 }
 
 /// Right and up of each face, as it is seen from outside.
@@ -22,7 +23,7 @@ impl Cuboid {
     }
 
     pub fn between(min: DVec3, max: DVec3) -> Cuboid {
-        Cuboid { min, max }
+        Cuboid { min, max, p_error: super::p_error(min, max) }
     }
 
     fn span(&self, ray: &Ray) -> Option<Span> {
@@ -90,7 +91,7 @@ impl Surface for Cuboid {
         let axis = face / 2;
         let mut p = ray.at(hit.t).clamp(self.min, self.max);
         p[axis] = if face.is_multiple_of(2) { self.min[axis] } else { self.max[axis] };
-        BareSurface { p, p_error: super::p_error(self.min, self.max), ng: Cuboid::normal(face) }
+        BareSurface { p, p_error: self.p_error, ng: Cuboid::normal(face) }
     }
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {

@@ -1,7 +1,7 @@
 //! The disk or ring in the plane y = 0, normal +y. Its coordinates are those of its bounding square:
 //! u grows along +x, v along −z.
 
-use super::quad::{Quad, bare_plane_surface, plane_crossing, plane_surface, plane_uv};
+use super::quad::{Quad, bare_plane_surface, plane_crossing, plane_error, plane_surface, plane_uv};
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray, sampling};
 use crate::optics::LocalSurface;
@@ -11,12 +11,13 @@ use std::f64::consts::{PI, TAU};
 pub struct Disk {
     radius: f64,
     inner_radius: f64,
+    p_error: f64,
 }
 
 impl Disk {
     /// A ring if `inner_radius` > 0.
     pub fn new(radius: f64, inner_radius: f64) -> Disk {
-        Disk { radius, inner_radius }
+        Disk { radius, inner_radius, p_error: plane_error(DVec2::splat(radius)) }
     }
 
     fn square(&self) -> Quad {
@@ -51,11 +52,11 @@ impl Surface for Disk {
     }
 
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        plane_surface(ray.at(hit.t), DVec2::splat(self.radius))
+        plane_surface(ray.at(hit.t), DVec2::splat(self.radius), self.p_error)
     }
 
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        bare_plane_surface(ray.at(hit.t), DVec2::splat(self.radius))
+        bare_plane_surface(ray.at(hit.t), DVec2::splat(self.radius), self.p_error)
     }
 
     fn closed(&self) -> bool {

@@ -9,12 +9,14 @@ use crate::optics::LocalSurface;
 pub struct Quad {
     /// Half of the extents along x and z.
     half: DVec2,
+    p_error: f64,
 }
 
 impl Quad {
     /// Extents along x and z.
     pub fn new(size: [f64; 2]) -> Quad {
-        Quad { half: 0.5 * DVec2::from(size) }
+        let half = 0.5 * DVec2::from(size);
+        Quad { half, p_error: plane_error(half) }
     }
 
     fn seen_from(&self, from: DVec3) -> Option<Rectangle> {
@@ -30,10 +32,16 @@ pub(super) fn plane_crossing(ray: &Ray, t_min: f64, t_max: f64) -> Option<(f64, 
     (ray.dir.y != 0.0 && t_min < t && t < t_max).then(|| (t, ray.at(t)))
 }
 
+/// The `p_error` of a plane figure of this half-extent.
+pub(super) fn plane_error(half: DVec2) -> f64 {
+    let corner = DVec3::new(half.x, 0.0, half.y);
+    super::p_error(-corner, corner)
+}
+
 /// The surface point of a plane figure that fills the square or rectangle of this half-extent.
 #[inline]
-pub(super) fn plane_surface(p: DVec3, half: DVec2) -> LocalSurface {
-    let BareSurface { p, p_error, ng } = bare_plane_surface(p, half);
+pub(super) fn plane_surface(p: DVec3, half: DVec2, p_error: f64) -> LocalSurface {
+    let BareSurface { p, ng, .. } = bare_plane_surface(p, half, p_error);
     LocalSurface {
         p,
         p_error,
@@ -47,10 +55,10 @@ pub(super) fn plane_surface(p: DVec3, half: DVec2) -> LocalSurface {
 
 /// The same without coordinates.
 #[inline]
-pub(super) fn bare_plane_surface(p: DVec3, half: DVec2) -> BareSurface {
+pub(super) fn bare_plane_surface(p: DVec3, half: DVec2, p_error: f64) -> BareSurface {
     let corner = DVec3::new(half.x, 0.0, half.y);
     let p = DVec3::new(p.x, 0.0, p.z).clamp(-corner, corner);
-    BareSurface { p, p_error: super::p_error(-corner, corner), ng: DVec3::Y }
+    BareSurface { p, p_error, ng: DVec3::Y }
 }
 
 #[inline]
@@ -72,12 +80,12 @@ impl Surface for Quad {
 
     #[inline]
     fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        plane_surface(ray.at(hit.t), self.half)
+        plane_surface(ray.at(hit.t), self.half, self.p_error)
     }
 
     #[inline]
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        bare_plane_surface(ray.at(hit.t), self.half)
+        bare_plane_surface(ray.at(hit.t), self.half, self.p_error)
     }
 
     fn closed(&self) -> bool {

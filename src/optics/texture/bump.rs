@@ -3,8 +3,9 @@
 //! Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978. A flat map leaves the normal as it is, to the
 //! last bit, everywhere, also where the surface's coordinates are singular.
 
+use crate::math::Color;
 use crate::math::Frame;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 
 /// The normal that a tangent-space map gives: `rgb` in [0, 1], red along ∂p/∂u, green along ∂p/∂v,
 /// blue along the normal; `strength` scales the tilt. `ns` of unit length; so is the result, in
@@ -13,7 +14,7 @@ use glam::{DVec2, DVec3, Vec3};
 ///
 /// Zero tilt is ½ in a float image but 128/255 in bytes, so everything from ½ to 128/255 is zero: above
 /// it the value rises to 1 at 1 (in bytes (v − 128)/127), below it falls to −1 at 0.
-pub fn perturbed_normal_from_map(rgb: Vec3, strength: f64, ns: DVec3, dpdu: DVec3, dpdv: DVec3) -> DVec3 {
+pub fn perturbed_normal_from_map(rgb: Color, strength: f64, ns: DVec3, dpdu: DVec3, dpdv: DVec3) -> DVec3 {
     let tilt = DVec2::new(signed(rgb.x), signed(rgb.y)) * strength;
     if tilt == DVec2::ZERO || !tilt.is_finite() {
         return ns;

@@ -6,7 +6,8 @@
 //! SIGGRAPH 1999). Interpolation is a + (b − a)·t throughout, so that equal texels give exactly themselves.
 
 use super::{Pyramid, TexturePoint};
-use glam::{DVec2, Vec3};
+use crate::math::Color;
+use glam::DVec2;
 use std::sync::Arc;
 
 /// What lies outside of [0, 1].
@@ -45,7 +46,7 @@ impl ImageTexture {
     }
 
     /// Finite for any coordinates; those that are not finite count as 0.
-    pub fn color(&self, at: &TexturePoint) -> Vec3 {
+    pub fn color(&self, at: &TexturePoint) -> Color {
         let place = &self.placement;
         let uv = at.uv * place.scale + place.offset;
         let size = DVec2::new(self.pyramid.width() as f64, self.pyramid.height() as f64);
@@ -60,10 +61,10 @@ impl ImageTexture {
             let along = f64::from(2 * i + 1) / f64::from(footprint.taps) - 1.0;
             sum += self.trilinear(uv + footprint.major * along / size, footprint.level).as_dvec3();
         }
-        (sum / f64::from(footprint.taps)).as_vec3().min(self.max())
+        (sum / f64::from(footprint.taps)).as_vec3a().min(self.max())
     }
 
-    pub fn max(&self) -> Vec3 {
+    pub fn max(&self) -> Color {
         self.pyramid.max()
     }
 
@@ -74,7 +75,7 @@ impl ImageTexture {
     }
 
     /// `level` is fractional, at least 0.
-    fn trilinear(&self, uv: DVec2, level: f64) -> Vec3 {
+    fn trilinear(&self, uv: DVec2, level: f64) -> Color {
         let last = self.pyramid.last();
         // The cast saturates, so that the level may be infinite.
         let fine = (level as usize).min(last);
@@ -86,7 +87,7 @@ impl ImageTexture {
         color + (self.bilinear(fine + 1, uv) - color) * t
     }
 
-    fn bilinear(&self, level: usize, uv: DVec2) -> Vec3 {
+    fn bilinear(&self, level: usize, uv: DVec2) -> Color {
         let (width, height) = self.pyramid.size(level);
         let wrap = self.placement.wrap;
         let ([x0, x1], tx) = neighbours(wrapped(uv.x, wrap), width, wrap);
@@ -97,7 +98,7 @@ impl ImageTexture {
         };
         let (a, b) = (row(y0), row(y1));
         // Rounding may undershoot 0 by an ulp.
-        (a + (b - a) * ty).max(Vec3::ZERO)
+        (a + (b - a) * ty).max(Color::ZERO)
     }
 }
 

@@ -24,7 +24,8 @@ pub use pyramid::{Encoding, Pyramid, Texels};
 pub use solid::{Marble, Wood};
 pub use srgb::{srgb_to_linear, srgb8_to_linear};
 
-use glam::{DVec2, DVec3, Vec3};
+use crate::math::Color;
+use glam::{DVec2, DVec3};
 
 /// Where a texture is looked up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +79,7 @@ pub enum Texture {
 
 impl Texture {
     /// Linear Rec. 709, each channel finite and at least 0.
-    pub fn color(&self, at: &TexturePoint) -> Vec3 {
+    pub fn color(&self, at: &TexturePoint) -> Color {
         match self {
             Texture::Image(t) => t.color(at),
             Texture::Checker(t) => t.colors.blend(t.weight(at)),
@@ -91,7 +92,7 @@ impl Texture {
     }
 
     /// The mean colour: what a footprint that covers all of it sees.
-    pub fn mean(&self) -> Vec3 {
+    pub fn mean(&self) -> Color {
         // Wide enough for every filter, and its square still finite.
         let wide = 1e30;
         let duv = [DVec2::new(wide, 0.0), DVec2::new(0.0, wide)];
@@ -99,7 +100,7 @@ impl Texture {
     }
 
     /// No lookup exceeds this, channel by channel.
-    pub fn max(&self) -> Vec3 {
+    pub fn max(&self) -> Color {
         match self {
             Texture::Image(t) => t.max(),
             Texture::Checker(t) => t.colors.max(),
@@ -145,26 +146,27 @@ impl Texture {
 /// The two colours of a pattern: weight 0 is `a`, 1 is `b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colors {
-    a: Vec3,
-    b: Vec3,
+    a: Color,
+    b: Color,
 }
 
 impl Colors {
     /// Negative and non-finite channels become 0.
-    pub fn new(a: Vec3, b: Vec3) -> Colors {
-        let clean = |c: Vec3| Vec3::from(c.to_array().map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 }));
+    pub fn new(a: Color, b: Color) -> Colors {
+        let clean =
+            |c: Color| Color::from(c.to_array().map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 }));
         Colors { a: clean(a), b: clean(b) }
     }
 
     #[inline]
-    fn blend(&self, weight: f64) -> Vec3 {
+    fn blend(&self, weight: f64) -> Color {
         let w = weight.clamp(0.0, 1.0) as f32;
         self.a * (1.0 - w) + self.b * w
     }
 
     /// An upper bound of [`Colors::blend`], its rounding included.
-    fn max(&self) -> Vec3 {
-        Vec3::from(self.a.max(self.b).to_array().map(|x| (x * (1.0 + 2.0 * f32::EPSILON)).min(f32::MAX)))
+    fn max(&self) -> Color {
+        Color::from(self.a.max(self.b).to_array().map(|x| (x * (1.0 + 2.0 * f32::EPSILON)).min(f32::MAX)))
     }
 
     /// Luminance of `b` above that of `a`.

@@ -6,7 +6,7 @@
 //! texel, all levels: 7 bytes for 8-bit images, 10 for 16-bit, 16 for float.
 
 use super::srgb::{linear8, linear16, srgb_to_linear, srgb8_to_linear, srgb16_to_linear};
-use glam::Vec3;
+use crate::math::Color;
 
 /// An image's numbers as its file gives them: red, green, blue by rows from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub struct Pyramid {
     height: usize,
     base: Base,
     levels: Vec<Level>,
-    max: Vec3,
+    max: Color,
 }
 
 impl Pyramid {
@@ -73,7 +73,7 @@ impl Pyramid {
                 Base::F32(t)
             }
         };
-        let mut pyramid = Pyramid { width, height, base, levels: Vec::new(), max: Vec3::ZERO };
+        let mut pyramid = Pyramid { width, height, base, levels: Vec::new(), max: Color::ZERO };
         for y in 0..height {
             for x in 0..width {
                 pyramid.max = pyramid.max.max(pyramid.texel(0, x, y));
@@ -109,21 +109,21 @@ impl Pyramid {
     }
 
     /// The linear colour of a texel; `x`, `y` from the top left, below the level's size.
-    pub fn texel(&self, level: usize, x: usize, y: usize) -> Vec3 {
+    pub fn texel(&self, level: usize, x: usize, y: usize) -> Color {
         if let Some(i) = level.checked_sub(1) {
             let level = &self.levels[i];
             return level.texels[y * level.width + x].into();
         }
         let i = y * self.width + x;
         match &self.base {
-            Base::U8(t, table) => Vec3::from(t[i].map(|v| table[usize::from(v)])),
-            Base::U16(t, table) => Vec3::from(t[i].map(|v| table[usize::from(v)])),
+            Base::U8(t, table) => Color::from(t[i].map(|v| table[usize::from(v)])),
+            Base::U16(t, table) => Color::from(t[i].map(|v| table[usize::from(v)])),
             Base::F32(t) => t[i].into(),
         }
     }
 
     /// The largest value of each channel.
-    pub fn max(&self) -> Vec3 {
+    pub fn max(&self) -> Color {
         self.max
     }
 
@@ -151,7 +151,7 @@ impl Pyramid {
                     }
                 }
                 // Both weights add up to the lengths w and h, in units of 1/width and 1/height.
-                texels.push((sum / (w as f64 * h as f64)).as_vec3().min(Vec3::MAX).to_array());
+                texels.push((sum / (w as f64 * h as f64)).as_vec3a().min(Color::MAX).to_array());
             }
         }
         Level { width, height, texels }

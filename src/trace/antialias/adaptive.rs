@@ -12,7 +12,7 @@
 
 use super::Average;
 use crate::math::random::{Sequence, Stage};
-use crate::math::{DVec2, Place, Vec3};
+use crate::math::{Color, DVec2, Place};
 use crate::optics::Camera;
 use crate::trace::Tile;
 use crate::trace::{Sample, Scratch, Tally, Tracer};
@@ -75,7 +75,7 @@ struct Lattice<'a> {
     threshold: f32,
     floor: f32,
     /// What has been traced; the tables below hold places in it.
-    radiances: Vec<Vec3>,
+    radiances: Vec<Color>,
     /// The whole samples, where more than their radiance is wanted.
     samples: Vec<Sample>,
     whole: Whole,
@@ -217,7 +217,7 @@ impl Lattice<'_> {
         } else {
             self.tally.health.see(sample.radiance);
         }
-        self.radiances.push(if sample.is_finite() { sample.radiance } else { Vec3::NAN });
+        self.radiances.push(if sample.is_finite() { sample.radiance } else { Color::NAN });
         let wants = self.tracer.wants;
         if wants.first_hit || wants.split || wants.photons {
             self.samples.push(*sample);
@@ -240,20 +240,20 @@ fn widened(row: &[Range], first: u32, width: u32) -> Vec<Range> {
 /// The least and the greatest of finite radiances, channel by channel.
 #[derive(Clone, Copy)]
 struct Range {
-    lo: Vec3,
-    hi: Vec3,
+    lo: Color,
+    hi: Color,
 }
 
 impl Default for Range {
     fn default() -> Range {
-        Range { lo: Vec3::INFINITY, hi: Vec3::ZERO }
+        Range { lo: Color::INFINITY, hi: Color::ZERO }
     }
 }
 
 impl Range {
-    fn of(radiance: Vec3) -> Range {
+    fn of(radiance: Color) -> Range {
         if radiance.is_finite() {
-            Range { lo: radiance, hi: radiance.max(Vec3::ZERO) }
+            Range { lo: radiance, hi: radiance.max(Color::ZERO) }
         } else {
             Range::default()
         }

@@ -1,6 +1,6 @@
 //! The weighted mean of a pixel's samples within one pass, in double precision.
 
-use crate::math::{DVec3, Vec3};
+use crate::math::{Color, DVec3};
 use crate::trace::PixelValue;
 use crate::trace::{Sample, Wants};
 
@@ -61,14 +61,14 @@ impl Average {
 
     /// Adds a sample of which nothing but the radiance is wanted.
     #[inline]
-    pub fn add_radiance(&mut self, radiance: Vec3, weight: f64) {
+    pub fn add_radiance(&mut self, radiance: Color, weight: f64) {
         self.weight += weight;
         self.radiance += radiance.as_dvec3() * weight;
     }
 
     #[inline]
     pub fn add(&mut self, sample: &Sample, weight: f64) {
-        let scaled = |v: Vec3| v.as_dvec3() * weight;
+        let scaled = |v: Color| v.as_dvec3() * weight;
         self.weight += weight;
         self.radiance += scaled(sample.radiance);
         if self.wants.split {
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn the_value_of_one_sample_is_its_average() {
-        let v = |x: f32| Vec3::new(x, 0.1 * x, -x);
+        let v = |x: f32| Color::new(x, 0.1 * x, -x);
         let first = FirstHit { albedo: v(7.0), normal: v(0.3), depth: 9.1, position: v(8.0), object: 4 };
         let sample = Sample {
             radiance: v(0.7),

@@ -32,14 +32,15 @@ fn pixel_number(tracer: &Tracer, x: u32, y: u32) -> u64 {
 /// n × n samples at the centres of a regular grid.
 fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scratch, tally: &mut Tally) {
     let mut is_probe = probes(tracer);
+    let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(n);
+    let within: Vec<DVec2> = (0..n * n).map(|i| DVec2::new(centre(i % n), centre(i / n))).collect();
     for (x, y) in tile.pixels() {
         let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
         let probe = is_probe(x, y);
         let mut average = Average::of(wants(tracer, probe));
         look(tally, probe, tracer.wants.bias, pass);
-        for i in 0..n * n {
+        for (i, within) in (0u32..).zip(&within) {
             let index = pass.wrapping_mul(n * n).wrapping_add(i);
-            let within = DVec2::new(f64::from(i % n) + 0.5, f64::from(i / n) + 0.5) / f64::from(n);
             let film = DVec2::new(f64::from(x), f64::from(y)) + within;
             let sample = tracer.sample(film, pixel.at(index), scratch, tally);
             add_finite(&mut average, sample, Place { x, y, pass }, tally);

@@ -22,7 +22,7 @@ fn vector(values: &mut Counter) -> DVec3 {
 }
 
 fn black_white() -> Colors {
-    Colors::new(Vec3::ZERO, Vec3::ONE)
+    Colors::new(Color::ZERO, Color::ONE)
 }
 
 fn image(width: usize, height: usize, texels: Texels, encoding: Encoding, wrap: ImageWrap) -> ImageTexture {
@@ -39,7 +39,7 @@ fn random_image(width: usize, height: usize, wrap: ImageWrap) -> ImageTexture {
 
 /// One texture of each kind.
 fn all_kinds() -> Vec<Texture> {
-    let colors = Colors::new(Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.9, 0.5, 0.05));
+    let colors = Colors::new(Color::new(0.1, 0.2, 0.3), Color::new(0.9, 0.5, 0.05));
     vec![
         Texture::Image(random_image(5, 3, ImageWrap::Repeat)),
         Texture::Image(random_image(1, 1, ImageWrap::Clamp)),

@@ -24,7 +24,7 @@ fn frames(n: u64) -> Vec<(DVec3, DVec3, DVec3)> {
 #[test]
 fn flat_normal_map_changes_no_bit() {
     let byte = Pyramid::new(1, 1, Texels::U8(vec![[128, 128, 255]]), Encoding::Linear).texel(0, 0, 0);
-    for flat in [Vec3::new(0.5, 0.5, 1.0), byte, Vec3::new(0.5, 0.5, 0.0), Vec3::new(0.5, 0.5, f32::NAN)] {
+    for flat in [Color::new(0.5, 0.5, 1.0), byte, Color::new(0.5, 0.5, 0.0), Color::new(0.5, 0.5, f32::NAN)] {
         for (ns, dpdu, dpdv) in frames(200) {
             for strength in [0.0, 1.0, 10.0] {
                 assert_eq!(perturbed_normal_from_map(flat, strength, ns, dpdu, dpdv), ns);
@@ -32,7 +32,7 @@ fn flat_normal_map_changes_no_bit() {
         }
     }
     for (ns, dpdu, dpdv) in frames(50) {
-        let tilted = Vec3::new(0.9, 0.2, 0.8);
+        let tilted = Color::new(0.9, 0.2, 0.8);
         assert_eq!(perturbed_normal_from_map(tilted, 0.0, ns, dpdu, dpdv), ns);
         assert_eq!(bumped_normal(DVec2::ZERO, ns, ns, dpdu, dpdv), ns);
     }
@@ -42,7 +42,7 @@ fn flat_normal_map_changes_no_bit() {
 fn mapped_normals_are_unit_and_above_the_surface() {
     let mut values = values(5);
     for (ns, dpdu, dpdv) in frames(100) {
-        let rgb = Vec3::from(std::array::from_fn(|_| values.value() as f32));
+        let rgb = Color::from(std::array::from_fn(|_| values.value() as f32));
         let n = perturbed_normal_from_map(rgb, 1.0, ns, dpdu, dpdv);
         assert!((n.length() - 1.0).abs() < 1e-12 && n.dot(ns) > 0.0, "{rgb} {ns} {dpdu} {dpdv}: {n}");
         let slope = vector(&mut values).truncate() * 10.0;
@@ -55,7 +55,7 @@ fn mapped_normals_are_unit_and_above_the_surface() {
 /// only one of the two is known.
 #[test]
 fn red_leans_along_u_and_green_along_v() {
-    let (red, green) = (Vec3::new(0.9, 0.5, 0.9), Vec3::new(0.5, 0.9, 0.9));
+    let (red, green) = (Color::new(0.9, 0.5, 0.9), Color::new(0.5, 0.9, 0.9));
     let n = DVec3::Z;
     for (dpdu, dpdv) in [
         (DVec3::X * 3.0, DVec3::Y),
@@ -73,9 +73,9 @@ fn red_leans_along_u_and_green_along_v() {
         }
     }
     // (255, 128, 128): 45° would need equal shares; z = 0 is below the least, so it lies almost flat.
-    let tilt = perturbed_normal_from_map(Vec3::new(1.0, 0.5, 1.0), 1.0, n, DVec3::X, DVec3::Y);
+    let tilt = perturbed_normal_from_map(Color::new(1.0, 0.5, 1.0), 1.0, n, DVec3::X, DVec3::Y);
     assert!((tilt - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-12);
-    let half = perturbed_normal_from_map(Vec3::new(1.0, 0.5, 1.0), 0.5, n, DVec3::X, DVec3::Y);
+    let half = perturbed_normal_from_map(Color::new(1.0, 0.5, 1.0), 0.5, n, DVec3::X, DVec3::Y);
     assert!((half - DVec3::new(0.5, 0.0, 1.0).normalize()).length() < 1e-12);
 }
 
