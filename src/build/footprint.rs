@@ -5,7 +5,7 @@
 
 use super::Surface;
 use crate::math::{DVec2, DVec3};
-use crate::optics::TexturePoint;
+use crate::optics::{Coordinates, TexturePoint};
 
 /// A cone around a ray: radius in metres where it starts, and growth in metres a metre.
 #[derive(Clone, Copy, Debug)]
@@ -31,26 +31,34 @@ impl Cone {
 /// The point of a surface for texture lookups, with the ellipse in which the cone meets it; `scale` is
 /// that of the surface's placement.
 #[inline]
-pub fn texture_point(surface: &Surface, scale: f64, wo: DVec3, cone: &Cone) -> TexturePoint {
+pub fn texture_point(
+    surface: &Surface,
+    coordinates: &Coordinates,
+    scale: f64,
+    wo: DVec3,
+    cone: &Cone,
+) -> TexturePoint {
     let radius = cone.width + cone.spread * surface.t;
     let n = surface.ng;
     let height = wo.dot(n);
     let along = wo - n * height;
     let sin2 = along.length_squared();
     let axes = if sin2 > 1e-12 {
-        let scale = radius / sin2.sqrt();
-        [along * (scale / height.abs().max(1e-4)), n.cross(along) * scale]
+        // The roots and divisions wait for nothing but their own arguments.
+        let (sin, longer) = (sin2.sqrt(), radius / height.abs().max(1e-4));
+        let inverse = 1.0 / sin;
+        [along * (longer * inverse), n.cross(along) * (radius * inverse)]
     } else {
-        let minor = surface.dpdu.try_normalize().unwrap_or(DVec3::ZERO) * radius;
+        let minor = coordinates.dpdu.try_normalize().unwrap_or(DVec3::ZERO) * radius;
         [n.cross(minor), minor]
     };
-    TexturePoint { uv: surface.uv, duv: in_uv(surface, axes), p: surface.local, dp: radius / scale }
+    TexturePoint { uv: coordinates.uv, duv: in_uv(coordinates, axes), p: surface.local, dp: radius / scale }
 }
 
 /// The (u, v) steps of steps on the surface: least squares in the plane of ∂p/∂u and ∂p/∂v.
 #[inline]
-fn in_uv(surface: &Surface, steps: [DVec3; 2]) -> [DVec2; 2] {
-    let (u, v) = (surface.dpdu, surface.dpdv);
+fn in_uv(coordinates: &Coordinates, steps: [DVec3; 2]) -> [DVec2; 2] {
+    let (u, v) = (coordinates.dpdu, coordinates.dpdv);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
     if det.is_nan() || det <= 1e-12 * uu * vv {

@@ -38,6 +38,7 @@ pub use shading::Shading;
 pub use sight::Sight;
 use std::path::PathBuf;
 pub use surface::Surface;
+pub use vista::{Candidates, Vista};
 pub use world::{Geometry, Hit, Instance, Mesh, World};
 
 /// Why a world could not be built.

@@ -3,7 +3,9 @@
 use super::footprint::{Cone, texture_point};
 use super::{Surface, World};
 use crate::math::{Color, DVec3};
-use crate::optics::{Material, Relief, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map};
+use crate::optics::{
+    Coordinates, Material, Relief, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map,
+};
 
 /// A surface point ready for shading. Both normals are turned to the side of `wo`.
 pub struct Shading<'a> {
@@ -59,7 +61,8 @@ impl<'a> Shading<'a> {
         let outside = self.wo.dot(surface.ng) >= 0.0;
         let material = self.material;
         let scale = world.instances[surface.instance as usize].placement.scale();
-        let point = texture_point(surface, scale, self.wo, cone);
+        let coordinates = world.coordinates(surface);
+        let point = texture_point(surface, &coordinates, scale, self.wo, cone);
         let look = |weight: &Weight, value: &mut Color| {
             if weight.textured() {
                 *value = weight.at(&world.textures, &point);
@@ -73,7 +76,8 @@ impl<'a> Shading<'a> {
             look(&material.emission, &mut self.emission);
         }
         if !material.relief.is_empty() {
-            self.ns = bent_normal(world, material, surface, &point) * if outside { 1.0 } else { -1.0 };
+            self.ns = bent_normal(world, material, surface, &coordinates, &point)
+                * if outside { 1.0 } else { -1.0 };
         }
     }
 
@@ -98,17 +102,23 @@ impl<'a> Shading<'a> {
 }
 
 /// The shading normal after bump and normal maps, in the hemisphere of the geometric one.
-fn bent_normal(world: &World, material: &Material, surface: &Surface, point: &TexturePoint) -> DVec3 {
-    let mut ns = surface.ns;
+fn bent_normal(
+    world: &World,
+    material: &Material,
+    surface: &Surface,
+    coordinates: &Coordinates,
+    point: &TexturePoint,
+) -> DVec3 {
+    let (mut ns, &Coordinates { dpdu, dpdv, .. }) = (surface.ns, coordinates);
     for relief in &material.relief {
         ns = match *relief {
             Relief::NormalMap { texture, strength } => {
                 let rgb = world.textures[texture.0 as usize].color(point);
-                perturbed_normal_from_map(rgb, strength, ns, surface.dpdu, surface.dpdv)
+                perturbed_normal_from_map(rgb, strength, ns, dpdu, dpdv)
             }
             Relief::BumpMap { texture, height } => {
-                let slope = world.textures[texture.0 as usize].slope(point, surface.dpdu, surface.dpdv);
-                bumped_normal(slope * height, ns, surface.ng, surface.dpdu, surface.dpdv)
+                let slope = world.textures[texture.0 as usize].slope(point, dpdu, dpdv);
+                bumped_normal(slope * height, ns, surface.ng, dpdu, dpdv)
             }
         };
     }

@@ -2,7 +2,7 @@
 
 use super::world::{Geometry, Hit, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
-use crate::optics::{LocalSurface, MaterialId, TriangleMesh};
+use crate::optics::{Coordinates, LocalSurface, MaterialId, TriangleMesh};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -16,9 +16,8 @@ pub struct Surface {
     pub ng: DVec3,
     /// Unit shading normal, in the hemisphere of `ng`, before any normal map.
     pub ns: DVec3,
-    pub uv: DVec2,
-    pub dpdu: DVec3,
-    pub dpdv: DVec3,
+    /// Those of a mesh; other shapes' are found where they are asked for: see [`World::coordinates`].
+    mesh_coordinates: Option<Coordinates>,
     /// The point in object space, for solid textures.
     pub local: DVec3,
     pub material: MaterialId,
@@ -30,8 +29,7 @@ pub struct Surface {
 }
 
 impl World {
-    /// The surface at a hit of `ray`, whose direction is of unit length. Coordinates and their
-    /// derivatives are left at 0 on shapes whose material asks for none.
+    /// The surface at a hit of `ray`, whose direction is of unit length.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         self.surface_here(ray, hit)
     }
@@ -44,13 +42,7 @@ impl World {
         let binding = &self.bindings[instance.binding as usize];
         match &self.geometries[instance.geometry as usize] {
             Geometry::Shape(shape) => {
-                let material = binding[0];
-                let local_ray = placement.local_ray(ray);
-                let at = World::shape_hit(hit);
-                if self.materials[material.0 as usize].textured {
-                    return placed(ray, hit, placement, &shape.surface(&local_ray, at), material, None);
-                }
-                let bare = shape.bare_surface(&local_ray, at);
+                let bare = shape.bare_surface(&placement.local_ray(ray), World::shape_hit(hit));
                 let p = placement.point(bare.p);
                 let ng = placement.unit_normal(bare.ng);
                 Surface {
@@ -59,70 +51,71 @@ impl World {
                     p_error: placed_error(placement, p, bare.p, bare.p_error),
                     ng,
                     ns: ng,
-                    uv: DVec2::ZERO,
-                    dpdu: DVec3::ZERO,
-                    dpdv: DVec3::ZERO,
+                    mesh_coordinates: None,
                     local: bare.p,
-                    material,
+                    material: binding[0],
                     instance: hit.instance,
                     primitive: hit.primitive,
                     shadow_p: p,
                 }
             }
-            Geometry::Mesh(mesh) => {
-                let m = &mesh.surface;
-                let part = m.part(hit.primitive) as usize;
-                let (local, lifted) = mesh_surface(m, ray, hit, placement);
-                placed(ray, hit, placement, &local, binding[part.min(binding.len() - 1)], lifted)
+            Geometry::Mesh(mesh) => self.mesh_surface(&mesh.surface, ray, hit, placement, binding),
+        }
+    }
+
+    #[inline(never)]
+    fn mesh_surface(
+        &self,
+        mesh: &TriangleMesh,
+        ray: &Ray,
+        hit: &Hit,
+        placement: &Placement,
+        binding: &[MaterialId],
+    ) -> Surface {
+        let part = mesh.part(hit.primitive) as usize;
+        let facet = mesh.facet(hit.primitive, hit.b);
+        let LocalSurface { p: local, p_error, ng, ns, uv, dpdu, dpdv } = facet.surface();
+        let shadow_p = (!mesh.normals.is_empty()).then(|| {
+            let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
+            placement.point(facet.shadow_terminator_point(front))
+        });
+        let p = placement.point(local);
+        let bent = if ns == ng { None } else { Some(placement.unit_normal(ns)) };
+        let ng = placement.unit_normal(ng);
+        let coordinates = placed_coordinates(placement, Coordinates { uv, dpdu, dpdv });
+        Surface {
+            t: (p - ray.origin).dot(ray.dir),
+            p,
+            p_error: placed_error(placement, p, local, p_error),
+            ng,
+            ns: bent.filter(|ns| ns.dot(ng) > 0.0).unwrap_or(ng),
+            mesh_coordinates: Some(coordinates),
+            local,
+            material: binding[part.min(binding.len() - 1)],
+            instance: hit.instance,
+            primitive: hit.primitive,
+            shadow_p: shadow_p.unwrap_or(p),
+        }
+    }
+
+    /// A surface's coordinates, as they run in the world.
+    #[inline]
+    pub fn coordinates(&self, surface: &Surface) -> Coordinates {
+        match (surface.mesh_coordinates, self.geometry(surface.instance)) {
+            (None, Geometry::Shape(shape)) => {
+                let placement = &self.instances[surface.instance as usize].placement;
+                placed_coordinates(placement, shape.coordinates(surface.local, surface.primitive))
+            }
+            (found, _) => {
+                found.unwrap_or(Coordinates { uv: DVec2::ZERO, dpdu: DVec3::ZERO, dpdv: DVec3::ZERO })
             }
         }
     }
 }
 
-/// A mesh's surface, and where its shadow rays start if not there.
-#[inline(never)]
-fn mesh_surface(
-    mesh: &TriangleMesh,
-    ray: &Ray,
-    hit: &Hit,
-    placement: &Placement,
-) -> (LocalSurface, Option<DVec3>) {
-    let facet = mesh.facet(hit.primitive, hit.b);
-    let lifted = (!mesh.normals.is_empty()).then(|| {
-        let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
-        facet.shadow_terminator_point(front)
-    });
-    (facet.surface(), lifted)
-}
-
-/// `lifted`: where shadow rays start, in object space.
-#[inline(never)]
-fn placed(
-    ray: &Ray,
-    hit: &Hit,
-    placement: &Placement,
-    local: &LocalSurface,
-    material: MaterialId,
-    lifted: Option<DVec3>,
-) -> Surface {
-    let p = placement.point(local.p);
-    let ng = placement.unit_normal(local.ng);
-    let ns = if local.ns == local.ng { ng } else { placement.unit_normal(local.ns) };
-    Surface {
-        t: (p - ray.origin).dot(ray.dir),
-        p,
-        p_error: placed_error(placement, p, local.p, local.p_error),
-        ng,
-        ns: if ns.dot(ng) > 0.0 { ns } else { ng },
-        uv: local.uv,
-        dpdu: placement.vector(local.dpdu),
-        dpdv: placement.vector(local.dpdv),
-        local: local.p,
-        material,
-        instance: hit.instance,
-        primitive: hit.primitive,
-        shadow_p: lifted.map_or(p, |q| placement.point(q)),
-    }
+#[inline]
+fn placed_coordinates(placement: &Placement, local: Coordinates) -> Coordinates {
+    Coordinates { uv: local.uv, dpdu: placement.vector(local.dpdu), dpdv: placement.vector(local.dpdv) }
 }
 
 /// The error of a point in the world: its shape's, and what placement adds to it, there and back.

@@ -47,13 +47,16 @@ impl Vista {
         Some(Vista { instances: near, columns, rows })
     }
 
-    /// The objects that a ray through a place on the film (pixels from the top left corner) may meet.
     #[inline]
-    fn through(&self, film: DVec2) -> u64 {
+    fn through(&self, film: DVec2) -> Candidates {
         let of = |sets: &[u64], x: f64| sets[(x as usize).min(sets.len() - 1)];
-        of(&self.columns, film.x) & of(&self.rows, film.y)
+        Candidates(of(&self.columns, film.x) & of(&self.rows, film.y))
     }
 }
+
+/// What the camera's rays through a pixel may meet.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidates(u64);
 
 /// The corners of bounds with room for the rounding that they and rays are subject to.
 fn corners(camera: &Camera, bounds: &Aabb) -> [Corner; 8] {
@@ -88,11 +91,17 @@ fn mark(strips: &mut [u64], bit: u64, pixel: f64, corners: &[[f64; 2]; 8]) {
 }
 
 impl World {
-    /// The nearest hit of the camera's ray through a place on the film, in pixels from the top left corner.
+    /// What may be met through the pixel of a place on the film, in pixels from the top left corner.
     #[inline]
-    pub fn nearest_from_eye(&self, ray: &Ray, film: DVec2) -> Option<Hit> {
+    pub fn before_eye(&self, film: DVec2) -> Candidates {
+        self.vista.as_ref().map_or(Candidates(u64::MAX), |vista| vista.through(film))
+    }
+
+    /// The nearest hit of a ray of the camera through a pixel with these candidates.
+    #[inline]
+    pub fn nearest_from_eye(&self, ray: &Ray, candidates: Candidates) -> Option<Hit> {
         let Some(vista) = &self.vista else { return self.nearest(ray, f64::INFINITY) };
-        let mut left = vista.through(film);
+        let Candidates(mut left) = candidates;
         let mut best = Hit { t: f64::INFINITY, instance: 0, primitive: 0, b: [0.0; 3] };
         let mut met = false;
         while left != 0 {
@@ -141,8 +150,8 @@ mod tests {
                 // Corners of pixels, too.
                 let film = DVec2::new(share.x * f64::from(width), share.y * f64::from(height));
                 let film = if share.z < 0.3 { film.floor() } else { film };
-                let dir = camera.ray(film, DVec2::ZERO).dir;
-                let set = vista.through(film);
+                let dir = camera.ray(film).dir;
+                let Candidates(set) = vista.through(film);
                 for (bit, &(i, near)) in vista.instances.iter().enumerate() {
                     let (min, max) = (boxes[i as usize].min.as_dvec3(), boxes[i as usize].max.as_dvec3());
                     let (a, b) = ((min - eye) / dir, (max - eye) / dir);
@@ -177,9 +186,9 @@ mod tests {
         let mut met = [0; 6];
         for _ in 0..20_000 {
             let film = DVec2::new(32.0 * random.value(), 24.0 * random.value());
-            let ray = world.camera.ray(film, DVec2::ZERO);
+            let ray = world.camera.ray(film);
             let hit = world.nearest(&ray, f64::INFINITY);
-            assert_eq!(world.nearest_from_eye(&ray, film), hit);
+            assert_eq!(world.nearest_from_eye(&ray, world.before_eye(film)), hit);
             if let Some(hit) = hit {
                 met[hit.instance as usize] += 1;
             }

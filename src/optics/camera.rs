@@ -19,15 +19,24 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// `film` in pixels from the top left corner; `lens` on the unit disk.
+    /// From the middle of the lens to the place `film`, in pixels from the top left corner, on the film before it.
     #[inline]
-    pub fn ray(&self, film: DVec2, lens: DVec2) -> Ray {
+    fn towards(&self, film: DVec2) -> DVec3 {
         let x = (film.x - 0.5 * f64::from(self.width)) * self.pixel;
         let y = (0.5 * f64::from(self.height) - film.y) * self.pixel;
-        let dir = self.forward + self.right * x + self.up * y;
-        if self.lens_radius == 0.0 {
-            return Ray { origin: self.eye, dir: dir.normalize() };
-        }
+        self.forward + self.right * x + self.up * y
+    }
+
+    /// From the middle of the lens through `film`, in pixels from the top left corner.
+    #[inline]
+    pub fn ray(&self, film: DVec2) -> Ray {
+        Ray { origin: self.eye, dir: self.towards(film).normalize() }
+    }
+
+    /// The same from a place `lens` of the unit disk.
+    #[inline(never)]
+    pub fn ray_through_lens(&self, film: DVec2, lens: DVec2) -> Ray {
+        let dir = self.towards(film);
         let origin = self.eye + (self.right * lens.x + self.up * lens.y) * self.lens_radius;
         Ray { origin, dir: (self.eye + dir * self.focus - origin).normalize() }
     }
@@ -59,8 +68,7 @@ mod tests {
             height: 400,
         };
         for x in [200.0, 300.0, 400.0] {
-            let [above, here, below] =
-                [-0.5, 0.0, 0.5].map(|dy| camera.ray(DVec2::new(x, 200.0 + dy), DVec2::ZERO).dir);
+            let [above, here, below] = [-0.5, 0.0, 0.5].map(|dy| camera.ray(DVec2::new(x, 200.0 + dy)).dir);
             let apart = above.angle_between(below);
             let spread = camera.pixel_spread(here);
             assert!((2.0 * spread / apart - 1.0).abs() < 1e-4, "{x}: {spread} and {apart}");

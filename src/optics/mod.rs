@@ -25,5 +25,5 @@ pub use shape::{
     Sphere, sample_triangle_direction, triangle_direction_pdf,
 };
 pub use spectrum::{Cauchy, Spectrum, WavelengthSample};
-pub use surface::LocalSurface;
+pub use surface::{Coordinates, LocalSurface};
 pub use texture::{Texture, TexturePoint, bumped_normal, perturbed_normal_from_map};

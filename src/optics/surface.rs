@@ -19,3 +19,12 @@ pub struct LocalSurface {
     pub dpdu: DVec3,
     pub dpdv: DVec3,
 }
+
+/// Where a surface point lies in its shape's coordinates, and how they run there: as in [`LocalSurface`], or in
+/// the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates {
+    pub uv: DVec2,
+    pub dpdu: DVec3,
+    pub dpdv: DVec3,
+}

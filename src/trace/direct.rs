@@ -75,8 +75,10 @@ impl Tracer<'_> {
         if kind.extended() {
             return self.once_extended(emitter, lobes, surface, shading, media, u, tally);
         }
-        let sample = LightSample::without_extent(kind, surface.p);
-        sample.map_or(Color::ZERO, |s| self.arriving(emitter, lobes, surface, shading, media, &s, tally))
+        match &LightSample::without_extent(kind, surface.p) {
+            Some(sample) => self.arriving(emitter, lobes, surface, shading, media, sample, tally),
+            None => Color::ZERO,
+        }
     }
 
     /// The same of an emitter with an extent: apart, so that points need not carry its arithmetic along.
@@ -92,8 +94,10 @@ impl Tracer<'_> {
         u: impl FnOnce() -> [f64; 2],
         tally: &mut Tally,
     ) -> Color {
-        let sample = self.extended_sample(&self.world.emitters[emitter].kind, surface, shading, u);
-        sample.map_or(Color::ZERO, |s| self.arriving(emitter, lobes, surface, shading, media, &s, tally))
+        match &self.extended_sample(&self.world.emitters[emitter].kind, surface, shading, u) {
+            Some(sample) => self.arriving(emitter, lobes, surface, shading, media, sample, tally),
+            None => Color::ZERO,
+        }
     }
 
     /// What of a sample's light the point sends on, if nothing hides it.

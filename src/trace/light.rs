@@ -228,7 +228,12 @@ impl Tracer<'_> {
         if !material.emits_back && surface.ng.dot(ray.dir) >= 0.0 {
             return Color::ZERO;
         }
-        let point = TexturePoint { uv: surface.uv, duv: Default::default(), p: surface.local, dp: 0.0 };
+        let point = TexturePoint {
+            uv: world.coordinates(&surface).uv,
+            duv: Default::default(),
+            p: surface.local,
+            dp: 0.0,
+        };
         material.emission.at(&world.textures, &point)
     }
 }

@@ -14,9 +14,9 @@ use super::branch::{BOUNCE, Branch, Class, LENS, MIRROR, REFLECTED, REFRACTED, W
 use super::record::{InterfaceRecord, Recorder};
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
-use crate::build::{Cone, Crossing, Hit, MediaSet, Shading, Surface};
+use crate::build::{Candidates, Cone, Crossing, Hit, MediaSet, Shading, Surface};
 use crate::math::random::Sequence;
-use crate::math::{Color, DVec2, Ray};
+use crate::math::{Color, DVec2, Ray, sampling};
 use crate::plan::Carriers;
 
 /// Storage that samples of one tile use again, and what holds for all of them.
@@ -48,32 +48,42 @@ impl Tracer<'_> {
         scratch: &'s mut Scratch,
         tally: &mut Tally,
     ) -> &'s Sample {
+        self.sample_among(self.world.before_eye(film), film, sequence, scratch, tally)
+    }
+
+    /// The same, of which it is known what it may meet first.
+    pub(super) fn sample_among<'s>(
+        &self,
+        candidates: Candidates,
+        film: DVec2,
+        sequence: Sequence,
+        scratch: &'s mut Scratch,
+        tally: &mut Tally,
+    ) -> &'s Sample {
         let camera = &self.world.camera;
-        let lens = if camera.lens_radius > 0.0 {
-            crate::math::sampling::disk(sequence.dimension(LENS).pair())
-        } else {
-            DVec2::ZERO
-        };
         tally.rays.camera += 1;
         tally.health.samples += 1;
         tally.watch.begin();
         tally.note(|recorder| recorder.begin(film));
         scratch.sample.clear();
         scratch.branches.clear();
-        let Ray { origin, dir } = camera.ray(film, lens);
+        let ray = if camera.lens_radius > 0.0 {
+            camera.ray_through_lens(film, sampling::disk(sequence.dimension(LENS).pair()))
+        } else {
+            camera.ray(film)
+        };
+        let mut hit = self.world.nearest_from_eye(&ray, candidates);
         let mut branch = Branch {
-            ray: Ray { origin, dir },
+            ray,
             throughput: Color::ONE,
-            media: scratch.start.unwrap_or_else(|| self.world.media_at(origin)),
-            cone: Cone { width: 0.0, spread: camera.pixel_spread(dir) },
+            media: scratch.start.unwrap_or_else(|| self.world.media_at(ray.origin)),
+            cone: Cone { width: 0.0, spread: camera.pixel_spread(ray.dir) },
             depth: 0,
             bounces: 0,
             wavelength: None,
             sequence,
             class: Class::Direct,
         };
-        tally.watch.enter(Part::Camera);
-        let mut hit = self.world.nearest_from_eye(&branch.ray, film);
         loop {
             let goes_on = self.follow(&mut branch, hit, &mut scratch.sample, &mut scratch.branches, tally);
             if !goes_on {

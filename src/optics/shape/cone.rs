@@ -15,7 +15,7 @@ use super::sphere::longitude;
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::robust::quadratic_roots;
 use crate::math::{DVec2, DVec3, Ray, sampling};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 use std::f64::consts::{PI, TAU};
 
 const SIDE: u32 = 0;
@@ -137,31 +137,25 @@ impl Cone {
         }
     }
 
-    fn surface_at(&self, p: DVec3, face: u32) -> LocalSurface {
-        let BareSurface { p: on, p_error, ng } = self.bare_at(p, face);
-        let (uv, dpdu, dpdv) =
-            if face == SIDE { self.side_coordinates(p) } else { self.cap_coordinates(p, face == TOP) };
-        LocalSurface { p: on, p_error, ng, ns: ng, uv, dpdu, dpdv }
-    }
-
-    /// uv, ∂p/∂u and ∂p/∂v.
-    fn side_coordinates(&self, p: DVec3) -> (DVec2, DVec3, DVec3) {
+    fn side_coordinates(&self, p: DVec3) -> Coordinates {
         let (around, v, r) = self.on_side(p);
         let widening = self.top_radius - self.radius;
         let uv = DVec2::new(longitude(DVec3::new(around.x, 0.0, around.y)), v);
         // So close to the axis the derivative along u is too short to be given a direction.
         if around == DVec2::ZERO || r <= 1e-30 * self.radius.max(self.top_radius) {
-            return (uv, DVec3::ZERO, DVec3::ZERO);
+            return Coordinates { uv, dpdu: DVec3::ZERO, dpdv: DVec3::ZERO };
         }
         let dpdu = DVec3::new(around.y, 0.0, -around.x) * (TAU * r);
-        (uv, dpdu, DVec3::new(around.x * widening, self.height, around.y * widening))
+        let dpdv = DVec3::new(around.x * widening, self.height, around.y * widening);
+        Coordinates { uv, dpdu, dpdv }
     }
 
-    fn cap_coordinates(&self, p: DVec3, top: bool) -> (DVec2, DVec3, DVec3) {
+    fn cap_coordinates(&self, p: DVec3, top: bool) -> Coordinates {
         let r = if top { self.top_radius } else { self.radius };
         let up = if top { DVec3::NEG_Z } else { DVec3::Z };
         let uv = DVec2::new(0.5 + 0.5 * (p.x / r), 0.5 + 0.5 * (p.dot(up) / r));
-        (uv.clamp(DVec2::ZERO, DVec2::ONE), DVec3::X * (2.0 * r), up * (2.0 * r))
+        let uv = uv.clamp(DVec2::ZERO, DVec2::ONE);
+        Coordinates { uv, dpdu: DVec3::X * (2.0 * r), dpdv: up * (2.0 * r) }
     }
 
     fn bounding_box(&self) -> Cuboid {
@@ -196,8 +190,8 @@ impl Surface for Cone {
         span.not_empty()?.nearest(t_min, t_max)
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        self.surface_at(ray.at(hit.t), hit.face)
+    fn coordinates(&self, p: DVec3, face: u32) -> Coordinates {
+        if face == SIDE { self.side_coordinates(p) } else { self.cap_coordinates(p, face == TOP) }
     }
 
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
@@ -243,8 +237,9 @@ impl Surface for Cone {
             let d = sample_ring(0.0, r, [u0, u[1]]);
             DVec3::new(d.x, y, d.y)
         };
-        let at = self.surface_at(p, face);
-        AreaSample { p: at.p, ng: at.ng, uv: at.uv, pdf: 1.0 / self.area() }
+        let at = self.bare_at(p, face);
+        let uv = self.coordinates(at.p, face).uv;
+        AreaSample { p: at.p, ng: at.ng, uv, pdf: 1.0 / self.area() }
     }
 
     /// Uniform over the directions to the bounding box, those that miss the cone included.

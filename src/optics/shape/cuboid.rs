@@ -4,7 +4,7 @@ use super::solid_angle::Rectangle;
 use super::span::Span;
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray, sampling};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
@@ -94,21 +94,11 @@ impl Surface for Cuboid {
         BareSurface { p, p_error: self.p_error, ng: Cuboid::normal(face) }
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        let BareSurface { p, p_error, ng } = self.bare_surface(ray, hit);
-        let face = hit.face as usize;
-        let (corner, right, up) = self.face(face);
+    fn coordinates(&self, p: DVec3, face: u32) -> Coordinates {
+        let (corner, right, up) = self.face(face as usize);
         let from_corner = p - corner;
         let share = |edge: DVec3| (from_corner.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        LocalSurface {
-            p,
-            p_error,
-            ng,
-            ns: ng,
-            uv: DVec2::new(share(right), share(up)),
-            dpdu: right,
-            dpdv: up,
-        }
+        Coordinates { uv: DVec2::new(share(right), share(up)), dpdu: right, dpdv: up }
     }
 
     fn closed(&self) -> bool {

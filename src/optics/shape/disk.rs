@@ -1,10 +1,10 @@
 //! The disk or ring in the plane y = 0, normal +y. Its coordinates are those of its bounding square:
 //! u grows along +x, v along −z.
 
-use super::quad::{Quad, bare_plane_surface, plane_crossing, plane_error, plane_surface, plane_uv};
+use super::quad::{Quad, plane_coordinates, plane_crossing, plane_error, plane_surface, plane_uv};
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray, sampling};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 use std::f64::consts::{PI, TAU};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,12 +51,12 @@ impl Surface for Disk {
         within.then_some(ShapeHit { t, face: 0 })
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         plane_surface(ray.at(hit.t), DVec2::splat(self.radius), self.p_error)
     }
 
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        bare_plane_surface(ray.at(hit.t), DVec2::splat(self.radius), self.p_error)
+    fn coordinates(&self, p: DVec3, _: u32) -> Coordinates {
+        plane_coordinates(p, DVec2::splat(self.radius))
     }
 
     fn closed(&self) -> bool {

@@ -25,7 +25,7 @@ pub use quad::Quad;
 pub use solid_angle::{DirectionSample, sample_triangle_direction, triangle_direction_pdf};
 pub use sphere::Sphere;
 
-use super::LocalSurface;
+use super::{Coordinates, LocalSurface};
 use crate::math::{DVec2, DVec3, Ray, robust::gamma};
 
 #[derive(Clone, Debug)]
@@ -77,11 +77,8 @@ trait Surface {
         (0.5 * (min + max), 0.5 * (max - min).length())
     }
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit>;
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface;
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        let LocalSurface { p, p_error, ng, .. } = self.surface(ray, hit);
-        BareSurface { p, p_error, ng }
-    }
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface;
+    fn coordinates(&self, p: DVec3, face: u32) -> Coordinates;
     fn clearance(&self, p: DVec3) -> f64;
     fn depth(&self, p: DVec3) -> f64;
     fn closed(&self) -> bool;
@@ -124,13 +121,21 @@ impl Shape {
 
     /// The surface at a hit of this ray on this shape.
     pub fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        each!(self, s => s.surface(ray, hit))
+        let BareSurface { p, p_error, ng } = self.bare_surface(ray, hit);
+        let Coordinates { uv, dpdu, dpdv } = self.coordinates(p, hit.face);
+        LocalSurface { p, p_error, ng, ns: ng, uv, dpdu, dpdv }
     }
 
     /// The same without coordinates, which are dear to compute.
     #[inline]
     pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         each!(self, s => s.bare_surface(ray, hit))
+    }
+
+    /// The coordinates of a point of one of its faces.
+    #[inline]
+    pub fn coordinates(&self, p: DVec3, face: u32) -> Coordinates {
+        each!(self, s => s.coordinates(p, face))
     }
 
     /// A lower bound on the distance from a surface point to the end of its face; 0 where nothing is known.

@@ -6,9 +6,9 @@
 
 use super::solid_angle::Triangle;
 use super::span::Span;
-use super::{AreaSample, DirectionSample, ShapeHit, Surface};
+use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DMat3, DVec2, DVec3, Frame, Ray, sampling};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solid {
@@ -211,20 +211,17 @@ impl Surface for Polyhedron {
         self.span(ray)?.nearest(t_min, t_max)
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         let face = &self.faces[hit.face as usize];
         let p = ray.at(hit.t);
         let p = p - face.normal * (face.normal.dot(p) - self.inradius);
         let reach = DVec3::splat(self.circumradius);
-        LocalSurface {
-            p,
-            p_error: super::p_error(-reach, reach),
-            ng: face.normal,
-            ns: face.normal,
-            uv: face.uv(p).clamp(DVec2::ZERO, DVec2::ONE),
-            dpdu: face.right,
-            dpdv: face.up,
-        }
+        BareSurface { p, p_error: super::p_error(-reach, reach), ng: face.normal }
+    }
+
+    fn coordinates(&self, p: DVec3, face: u32) -> Coordinates {
+        let face = &self.faces[face as usize];
+        Coordinates { uv: face.uv(p).clamp(DVec2::ZERO, DVec2::ONE), dpdu: face.right, dpdv: face.up }
     }
 
     fn closed(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::solid_angle::Rectangle;
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Ray};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quad {
@@ -40,25 +40,16 @@ pub(super) fn plane_error(half: DVec2) -> f64 {
 
 /// The surface point of a plane figure that fills the square or rectangle of this half-extent.
 #[inline]
-pub(super) fn plane_surface(p: DVec3, half: DVec2, p_error: f64) -> LocalSurface {
-    let BareSurface { p, ng, .. } = bare_plane_surface(p, half, p_error);
-    LocalSurface {
-        p,
-        p_error,
-        ng,
-        ns: DVec3::Y,
-        uv: plane_uv(p, half),
-        dpdu: DVec3::X * (2.0 * half.x),
-        dpdv: DVec3::Z * (-2.0 * half.y),
-    }
-}
-
-/// The same without coordinates.
-#[inline]
-pub(super) fn bare_plane_surface(p: DVec3, half: DVec2, p_error: f64) -> BareSurface {
+pub(super) fn plane_surface(p: DVec3, half: DVec2, p_error: f64) -> BareSurface {
     let corner = DVec3::new(half.x, 0.0, half.y);
     let p = DVec3::new(p.x, 0.0, p.z).clamp(-corner, corner);
     BareSurface { p, p_error, ng: DVec3::Y }
+}
+
+#[inline]
+pub(super) fn plane_coordinates(p: DVec3, half: DVec2) -> Coordinates {
+    let (dpdu, dpdv) = (DVec3::X * (2.0 * half.x), DVec3::Z * (-2.0 * half.y));
+    Coordinates { uv: plane_uv(p, half), dpdu, dpdv }
 }
 
 #[inline]
@@ -79,13 +70,13 @@ impl Surface for Quad {
     }
 
     #[inline]
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         plane_surface(ray.at(hit.t), self.half, self.p_error)
     }
 
     #[inline]
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        bare_plane_surface(ray.at(hit.t), self.half, self.p_error)
+    fn coordinates(&self, p: DVec3, _: u32) -> Coordinates {
+        plane_coordinates(p, self.half)
     }
 
     fn closed(&self) -> bool {

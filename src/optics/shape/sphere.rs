@@ -3,7 +3,7 @@
 
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DVec2, DVec3, Frame, Ray, robust, sampling};
-use crate::optics::LocalSurface;
+use crate::optics::Coordinates;
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,13 @@ impl Sphere {
         let to_center = self.center - ray.origin;
         let t = to_center.dot(ray.dir) / ray.dir.length_squared();
         (t > 0.0 && to_center.length() > self.radius).then_some(t)
+    }
+
+    /// The normal at a point of the surface.
+    #[inline]
+    fn outwards(&self, p: DVec3) -> DVec3 {
+        let outwards = (p - self.center) * self.inverse_radius;
+        if outwards == DVec3::ZERO { DVec3::Y } else { robust::renormalized(outwards) }
     }
 
     /// sin² of the half-angle under which the sphere is seen; `None` from inside.
@@ -69,9 +76,14 @@ impl Surface for Sphere {
         (t_min < t && t < t_max).then_some(ShapeHit { t, face: 0 })
     }
 
-    fn surface(&self, ray: &Ray, hit: ShapeHit) -> LocalSurface {
-        let bare = self.bare_surface(ray, hit);
-        let n = bare.ng;
+    #[inline]
+    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        let n = self.outwards(ray.at(hit.t));
+        BareSurface { p: self.center + n * self.radius, p_error: self.p_error, ng: n }
+    }
+
+    fn coordinates(&self, p: DVec3, _: u32) -> Coordinates {
+        let n = self.outwards(p);
         let rim = libm::hypot(n.x, n.z);
         // Any closer to a pole, the derivative along u is too short to be given a direction.
         let (dpdu, dpdv) = if rim > 1e-30 {
@@ -80,15 +92,7 @@ impl Surface for Sphere {
         } else {
             (DVec3::ZERO, DVec3::ZERO)
         };
-        let uv = longitude_latitude(n);
-        LocalSurface { p: bare.p, p_error: bare.p_error, ng: n, ns: n, uv, dpdu, dpdv }
-    }
-
-    #[inline]
-    fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
-        let outwards = (ray.at(hit.t) - self.center) * self.inverse_radius;
-        let n = if outwards == DVec3::ZERO { DVec3::Y } else { robust::renormalized(outwards) };
-        BareSurface { p: self.center + n * self.radius, p_error: self.p_error, ng: n }
+        Coordinates { uv: longitude_latitude(n), dpdu, dpdv }
     }
 
     fn closed(&self) -> bool {

@@ -34,6 +34,15 @@ pub fn square_wave(x: f64, half: f64) -> f64 {
     2.0 * pulses(0.5 * x, 0.5 * half, 0.0, 0.5) - 1.0
 }
 
+/// Whether the square wave of [`square_wave`] is −1 over all of [x − half, x + half]; `None` where it changes, and
+/// where numbers are too large or not numbers.
+#[inline]
+pub fn level(x: f64, half: f64) -> Option<bool> {
+    let (low, high) = (x - half, x + half);
+    let step = floor(x);
+    (step <= low && high <= step + 1.0 && step.abs() < 1e15).then_some(step as i64 & 1 == 1)
+}
+
 /// The fractional part in [0, 1); 0 for NaN and infinities.
 #[inline]
 pub fn fraction(x: f64) -> f64 {

@@ -56,6 +56,13 @@ impl TexturePoint {
         DVec2::new(extent(a.x, b.x), extent(a.y, b.y))
     }
 
+    /// An upper bound on [`TexturePoint::half_extent`], without roots; may be NaN.
+    #[inline]
+    fn widest_extent(&self) -> DVec2 {
+        let [a, b] = self.duv;
+        a.abs() + b.abs()
+    }
+
     /// The footprint's radius in object space; never negative, never NaN.
     fn radius(&self) -> f64 {
         self.dp.max(0.0)

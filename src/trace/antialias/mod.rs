@@ -39,10 +39,11 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
         let probe = is_probe(x, y);
         let mut average = Average::of(wants(tracer, probe));
         look(tally, probe, tracer.wants.bias, pass);
+        let corner = DVec2::new(f64::from(x), f64::from(y));
+        let candidates = tracer.world.before_eye(corner);
         for (i, within) in (0u32..).zip(&within) {
-            let index = pass.wrapping_mul(n * n).wrapping_add(i);
-            let film = DVec2::new(f64::from(x), f64::from(y)) + within;
-            let sample = tracer.sample(film, pixel.at(index), scratch, tally);
+            let sequence = pixel.at(pass.wrapping_mul(n * n).wrapping_add(i));
+            let sample = tracer.sample_among(candidates, corner + within, sequence, scratch, tally);
             add_finite(&mut average, sample, Place { x, y, pass }, tally);
         }
         if let Some(mut value) = average.value(n * n) {
