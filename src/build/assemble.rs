@@ -7,13 +7,13 @@ use super::lights::Lights;
 use super::materials::{Surfaces, rgb};
 use super::media::Medium;
 use super::objects::Placed;
-use super::sight::Sight;
+use super::sights::Sights;
 use super::vista::Vista;
 use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
 use crate::math::{Aabb, Color};
-use crate::optics::{Camera, Cauchy, EmitterKind, Material, Spectrum, Weight};
+use crate::optics::{Camera, Cauchy, Material, Spectrum, Weight};
 use crate::plan::Plan;
 use rayon::prelude::*;
 
@@ -36,6 +36,7 @@ pub(super) fn assemble(
         .par_iter()
         .map(|i| World::placed_bounds(&placed.geometries[i.geometry as usize], &i.placement))
         .collect();
+    let all_bounds = bounds.clone();
     let mut media = Transmissive::find(&placed, &surfaces.materials, &bounds);
     if plan.forced() {
         media.ranked.splice(0..0, media.null.drain(..));
@@ -62,15 +63,7 @@ pub(super) fn assemble(
             Some(Medium { instance: i, ior, absorption })
         })
         .collect();
-    let around = |from| Sight::new(from, &placed.instances, &placed.geometries, &bounds);
-    let sights = lights
-        .emitters
-        .iter()
-        .map(|emitter| match emitter.kind {
-            EmitterKind::Point { position, .. } | EmitterKind::Spot { position, .. } => around(position),
-            _ => None,
-        })
-        .collect();
+    let sights = Sights::new(&placed.instances, &placed.geometries, &bounds, &all_bounds, &lights.emitters);
     let world = World {
         origin,
         vista: Vista::new(&camera, &bounds),

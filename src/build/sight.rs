@@ -1,24 +1,23 @@
-//! What can hide a lamp's point, for scenes of a handful of objects, without a test of their bounds.
+//! What lies in a direction from a point, or from anywhere in a box, for scenes of a handful of objects: which of
+//! them a ray may meet, without a test of their bounds.
 //!
-//! The directions are a cube around the point, each of its faces divided into cells; a cell holds the set of
-//! the objects whose bounds reach into its pyramid: the light buffer of Haines & Greenberg 1986 (The Light
-//! Buffer, CG&A 6(9)).
+//! The directions are a cube, each of its faces divided into cells; a cell holds the set of the objects whose
+//! bounds reach into its pyramid. Around a lamp's point this is the light buffer of Haines & Greenberg 1986 (The
+//! Light Buffer, CG&A 6(9)). Around a box, what is seen from any of its points is what is seen from 0 of the
+//! Minkowski difference: the object's bounds, widened by the box's size.
 
-use super::world::{Geometry, Instance, World};
-use crate::math::{Aabb, DVec3, Ray};
+use super::world::{Geometry, Instance};
+use crate::math::{Aabb, DVec3};
 use crate::optics::Shape;
 
 /// Objects at most: bits of a cell.
-const FEW: usize = 16;
+pub(super) const FEW: usize = 16;
 
-/// Cells along an edge of the cube.
-const SIDE: usize = 64;
-
-/// The objects around a point, by direction.
+/// The objects around a place, by direction; `SIDE` cells along an edge of the cube.
 #[derive(Clone, Debug)]
-pub struct Sight {
-    /// The nearest bounds first; bit i of a cell stands for the i-th.
-    instances: Vec<u32>,
+pub struct Sight<const SIDE: usize> {
+    /// The nearest bounds first, each with its least distance; bit i of a cell stands for the i-th.
+    instances: Vec<(u32, f64)>,
     /// By instance of the world: its bit if it is convex, so that a ray that leaves its outer side cannot
     /// meet it again.
     convex: Vec<u16>,
@@ -26,49 +25,53 @@ pub struct Sight {
     cells: Vec<u16>,
 }
 
-/// Bounds seen from the point along one face's axis, and across it.
-struct Seen {
+/// Bounds seen from the place along one face's axis, and across it.
+struct Seen<const SIDE: usize> {
     along: [f64; 2],
     across: [[f64; 2]; 2],
 }
 
-impl Sight {
-    /// From the point `from`; `bounds` are the instances'. `None` where they are too many.
+/// The objects of a direction that are still to be looked at.
+#[derive(Clone, Copy)]
+pub(super) struct Left(u16);
+
+impl<const SIDE: usize> Sight<SIDE> {
+    /// From anywhere between the corners of `from`; `bounds` are the instances'. `None` where they are too many.
     pub(super) fn new(
-        from: DVec3,
+        from: [DVec3; 2],
         instances: &[Instance],
         geometries: &[Geometry],
         bounds: &[Aabb],
-    ) -> Option<Sight> {
-        let mut near: Vec<(f64, u32)> = (0u32..)
+    ) -> Option<Self> {
+        let [least, most] = from;
+        // Between the nearest points of two boxes.
+        let gap =
+            |b: &Aabb| (b.min.as_dvec3() - most).max(least - b.max.as_dvec3()).max(DVec3::ZERO).length();
+        let mut near: Vec<(u32, f64)> = (0u32..)
             .zip(bounds)
             .filter(|(_, b)| b.min.cmple(b.max).all())
-            .map(|(i, b)| (from.clamp(b.min.as_dvec3(), b.max.as_dvec3()).distance(from), i))
+            .map(|(i, b)| (i, (gap(b) - room(from, b)).max(0.0) * (1.0 - 1e-9)))
             .collect();
-        if near.len() > FEW || !from.is_finite() {
+        if near.len() > FEW || !(least.is_finite() && most.is_finite()) {
             return None;
         }
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut sight = Sight {
-            instances: near.iter().map(|&(_, i)| i).collect(),
-            convex: vec![0; instances.len()],
-            cells: vec![0; 6 * SIDE * SIDE],
-        };
-        for (bit, &(_, i)) in near.iter().enumerate() {
-            sight.enter(from, &bounds[i as usize], 1 << bit);
-            if convex(&geometries[instances[i as usize].geometry as usize]) {
-                sight.convex[i as usize] = 1 << bit;
+        near.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        let mut sight =
+            Sight { instances: near, convex: vec![0; instances.len()], cells: vec![0; 6 * SIDE * SIDE] };
+        for bit in 0..sight.instances.len() {
+            let i = sight.instances[bit].0 as usize;
+            sight.enter(from, &bounds[i], 1 << bit);
+            if convex(&geometries[instances[i].geometry as usize]) {
+                sight.convex[i] = 1 << bit;
             }
         }
         Some(sight)
     }
 
-    /// Sets the bit in every cell that the bounds reach into, with room for what traversal in single
-    /// precision makes of a ray.
-    fn enter(&mut self, from: DVec3, bounds: &Aabb, bit: u16) {
-        let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        let room = (from.abs() + min.abs().max(max.abs())).max_element() * 16.0 * f64::from(f32::EPSILON);
-        let (min, max) = (min - from - room, max - from + room);
+    /// Sets the bit in every cell that the bounds reach into.
+    fn enter(&mut self, from: [DVec3; 2], bounds: &Aabb, bit: u16) {
+        let room = room(from, bounds);
+        let (min, max) = (bounds.min.as_dvec3() - from[1] - room, bounds.max.as_dvec3() - from[0] + room);
         for face in 0..6 {
             let axis = face / 2;
             let along = if face % 2 == 0 { [-max[axis], -min[axis]] } else { [min[axis], max[axis]] };
@@ -76,7 +79,7 @@ impl Sight {
                 continue;
             }
             let across = [1, 2].map(|k| [min[(axis + k) % 3], max[(axis + k) % 3]]);
-            let seen = Seen { along: [along[0].max(0.0), along[1]], across };
+            let seen = Seen::<SIDE> { along: [along[0].max(0.0), along[1]], across };
             let columns: [bool; SIDE] = std::array::from_fn(|i| seen.reaches(0, i));
             for row in (0..SIDE).filter(|&row| seen.reaches(1, row)) {
                 let start = (face * SIDE + row) * SIDE;
@@ -89,7 +92,7 @@ impl Sight {
 
     /// The objects that may lie in a direction of any length.
     #[inline]
-    fn towards(&self, dir: DVec3) -> u16 {
+    pub(super) fn towards(&self, dir: DVec3) -> Left {
         let size = dir.abs();
         let (axis, across) = if size.x >= size.y && size.x >= size.z {
             (0, [dir.y, dir.z])
@@ -101,12 +104,43 @@ impl Sight {
         let face = 2 * axis + usize::from(dir[axis] > 0.0);
         let scale = 0.5 * SIDE as f64 / size[axis];
         let cell = |x: f64| ((x * scale + 0.5 * SIDE as f64) as i32).clamp(0, SIDE as i32 - 1) as usize;
-        self.cells[(face * SIDE + cell(across[1])) * SIDE + cell(across[0])]
+        Left(self.cells[(face * SIDE + cell(across[1])) * SIDE + cell(across[0])])
+    }
+
+    /// Leaves out an instance whose outer side (of a flat shape: either side) the ray leaves, if it is convex.
+    #[inline]
+    pub(super) fn but(&self, Left(left): Left, instance: u32) -> Left {
+        Left(left & !self.convex[instance as usize])
+    }
+
+    /// The next object, the nearest bounds first, with the distance at which it may begin.
+    #[inline]
+    pub(super) fn next(&self, left: &mut Left) -> Option<(u32, f64)> {
+        if left.0 == 0 {
+            return None;
+        }
+        let bit = left.0.trailing_zeros();
+        left.0 &= left.0 - 1;
+        Some(self.instances[bit as usize])
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        size_of_val(self.instances.as_slice())
+            + size_of_val(self.convex.as_slice())
+            + size_of_val(self.cells.as_slice())
     }
 }
 
-impl Seen {
-    /// Whether the bounds reach between the two planes through the point that bound a column (0) or row (1).
+/// Room for what rounding makes of a ray: of traversal in single precision, and of where a ray starts that
+/// leaves a surface.
+fn room(from: [DVec3; 2], bounds: &Aabb) -> f64 {
+    let size =
+        from[0].abs().max(from[1].abs()) + bounds.min.as_dvec3().abs().max(bounds.max.as_dvec3().abs());
+    size.max_element() * 64.0 * f64::from(f32::EPSILON)
+}
+
+impl<const SIDE: usize> Seen<SIDE> {
+    /// Whether the bounds reach between the two planes through the place that bound a column (0) or row (1).
     fn reaches(&self, way: usize, i: usize) -> bool {
         // Wider than the rounding of a lookup.
         let at = |i: f64| 2.0 * i / SIDE as f64 - 1.0;
@@ -126,34 +160,15 @@ fn convex(geometry: &Geometry) -> bool {
     }
 }
 
-impl World {
-    /// Whether anything lies on the way of a ray at 0 < t < 1 that ends in the position of an emitter
-    /// without extent, by its index. `leaving`: the instance whose outer side (of a flat shape: either side)
-    /// the ray leaves.
-    #[inline]
-    pub fn hidden_from(&self, emitter: usize, ray: &Ray, leaving: Option<u32>) -> bool {
-        let Some(Some(sight)) = self.sights.get(emitter) else { return self.occluded(ray, 1.0, None) };
-        let mut left = sight.towards(-ray.dir);
-        if let Some(instance) = leaving {
-            left &= !sight.convex[instance as usize];
-        }
-        while left != 0 {
-            let instance = sight.instances[left.trailing_zeros() as usize];
-            left &= left - 1;
-            if self.hides(instance, ray, 1.0) {
-                return true;
-            }
-        }
-        false
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::Vec3;
     use crate::math::random::{Counter, Stage};
-    use crate::optics::EmitterKind;
+
+    fn empty() -> Sight<64> {
+        Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * 64 * 64] }
+    }
 
     /// Of boxes of all sizes, near and far and around the point, every one that a line from the point meets
     /// is among those of its direction.
@@ -170,10 +185,12 @@ mod tests {
                     Aabb::from_f64(middle - half, middle + half)
                 })
                 .collect();
-            let mut sight =
-                Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
+            // From a point, or from anywhere in a box around it.
+            let half = vector([0.0, 0.3 * scale][round % 2]).abs();
+            let around = [from - half, from + half];
+            let mut sight = empty();
             for (bit, bounds) in boxes.iter().enumerate() {
-                sight.enter(from, bounds, 1 << bit);
+                sight.enter(around, bounds, 1 << bit);
             }
             let mut alone = 0;
             for _ in 0..500 {
@@ -181,7 +198,8 @@ mod tests {
                 let bit = (vector(1.0).x.abs() * 2.0 * FEW as f64) as usize;
                 let (min, max) = (boxes[bit].min.as_dvec3(), boxes[bit].max.as_dvec3());
                 let share = (vector(3.0) + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
-                let mask = sight.towards(min + (max - min) * share - from);
+                let from = from + 2.0 * half * vector(1.0);
+                let Left(mask) = sight.towards(min + (max - min) * share - from);
                 assert!(mask >> bit & 1 == 1, "round {round}, box {bit}");
                 alone += u32::from(mask.count_ones() < 8);
             }
@@ -189,53 +207,15 @@ mod tests {
         }
     }
 
-    /// The same answers as the tree's, for rays all over a scene of every shape, lit from within it.
-    #[test]
-    fn a_lamp_is_hidden_where_the_tree_finds_something() {
-        let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 8, height: 8),
-            materials: { "m": (diffuse: 0.5), "glass": (transmission: 1) },
-            lights: { "lamp": point(position: (-1, 2, 1), intensity: 1) },
-            objects: [(shape: quad(size: (9, 9)), material: "m"), (shape: sphere(radius: 0.5, center: (-0.6, 0.5, 0)), material: "glass"),
-                (shape: box(size: (1, 1, 1), center: (0, 0.5, 0)), material: "m", transform: [rotate(axis: (0, 1, 0), deg: 30), translate((1.4, 0, -1))]),
-                (shape: cone(radius: 0.4, height: 1.2), material: "m", transform: [translate((0.6, 0, 0.4))]),
-                (shape: disk(radius: 0.7), material: "m", transform: [rotate(axis: (1, 0, 0), deg: 70), translate((0, 1.6, -1))])])"#;
-        let format = crate::description::Format::Ron;
-        let scene =
-            crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
-        let plan = crate::plan::Plan::new(&scene, &Default::default()).expect("nothing is overridden");
-        let world = crate::build::build(&scene, &plan).expect("it can be built").world;
-        assert!(world.sights[0].is_some());
-        let EmitterKind::Point { position, .. } = world.emitters[0].kind else { unreachable!() };
-        let mut random = Counter::new(8, Stage::Test, 0);
-        let (mut met, mut hidden) = (0, 0);
-        for _ in 0..20_000 {
-            let u = [(); 3].map(|()| random.value());
-            let aim = DVec3::new(5.0 * u[0] - 2.5, 2.0 * u[1] - 0.4, 4.0 * u[2] - 2.5);
-            let ray = Ray { origin: world.camera.eye, dir: (aim - world.camera.eye).normalize() };
-            let hit = world.nearest(&ray, f64::INFINITY);
-            let Some(hit) = hit else { continue };
-            met += 1;
-            let surface = world.surface(&ray, &hit);
-            let side = if ray.dir.dot(surface.ng) < 0.0 { 1.0 } else { -1.0 };
-            let origin = surface.p + surface.ng * (side * surface.p_error);
-            let shadow = Ray { origin, dir: position - origin };
-            let outside = side > 0.0 && shadow.dir.dot(surface.ng) > 0.0;
-            let expected = world.occluded(&shadow, 1.0, None);
-            assert_eq!(world.hidden_from(0, &shadow, outside.then_some(surface.instance)), expected);
-            hidden += u32::from(expected);
-        }
-        assert!(met > 5_000 && hidden > 200 && hidden < met, "{met} met, {hidden} hidden");
-    }
-
     #[test]
     fn a_direction_without_a_length_is_looked_up() {
-        let sight = Sight { instances: Vec::new(), convex: Vec::new(), cells: vec![0; 6 * SIDE * SIDE] };
+        let sight = empty();
         for dir in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
-            assert_eq!(sight.towards(dir), 0);
+            assert_eq!(sight.towards(dir).0, 0);
         }
         let far = Aabb { min: Vec3::splat(1.0), max: Vec3::splat(2.0) };
         let mut sight = sight;
-        sight.enter(DVec3::ZERO, &far, 1);
-        assert_eq!((sight.towards(DVec3::ONE), sight.towards(DVec3::NEG_ONE)), (1, 0));
+        sight.enter([DVec3::ZERO; 2], &far, 1);
+        assert_eq!((sight.towards(DVec3::ONE).0, sight.towards(DVec3::NEG_ONE).0), (1, 0));
     }
 }

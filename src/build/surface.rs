@@ -1,5 +1,6 @@
 //! The surface that a ray has met, in the world.
 
+use super::sights::Start;
 use super::world::{Geometry, Hit, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
 use crate::optics::{Coordinates, LocalSurface, MaterialId, TriangleMesh};
@@ -26,6 +27,14 @@ pub struct Surface {
     pub primitive: u32,
     /// Where shadow rays start: `p`, or lifted off the facets of a smooth mesh.
     pub shadow_p: DVec3,
+}
+
+impl Surface {
+    /// Of a ray that leaves it in this direction.
+    #[inline]
+    pub fn start(&self, dir: DVec3) -> Start {
+        Start { instance: self.instance, outside: dir.dot(self.ng) > 0.0 }
+    }
 }
 
 impl World {

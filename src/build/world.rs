@@ -7,7 +7,7 @@
 use super::bvh::{BoxRay, Bvh, TriangleBvh};
 use super::contact::Contacts;
 use super::media::Medium;
-use super::sight::Sight;
+use super::sights::Sights;
 use super::vista::Vista;
 use crate::math::{Aabb, Color, DVec3, Placement, Ray, round_up};
 use crate::optics::{
@@ -26,8 +26,8 @@ pub struct World {
     pub tree: Bvh,
     /// What a pinhole camera may see where, in scenes of few objects.
     pub vista: Option<Vista>,
-    /// By emitter, what lies around those without an extent, in scenes of few objects.
-    pub sights: Vec<Option<Sight>>,
+    /// What lies around lamps and surfaces, in scenes of few objects.
+    pub sights: Sights,
     pub materials: Vec<Material>,
     /// By material: its name in the scene, or that of the light with an extent that it was made for.
     pub material_names: Vec<String>,

@@ -16,7 +16,7 @@ impl Source {
         let ray = self.ray_of_afar(frame, at);
         let power = *irradiance * (size.x * size.y);
         let media = self.media.unwrap_or_default();
-        Some(Start { ray, power, media, t_max: f64::INFINITY, falloff: None })
+        Some(self.start_within(ray, power, media))
     }
 
     /// Power: L/p(ω)·A/k, where `share` of the sky's sampling is this domain and k is the number of
@@ -45,7 +45,7 @@ impl Source {
             return None;
         }
         let media = self.media.unwrap_or_default();
-        Some(Start { ray: self.ray_of_afar(&frame, at), power, media, t_max: f64::INFINITY, falloff: None })
+        Some(self.start_within(self.ray_of_afar(&frame, at), power, media))
     }
 
     /// The ray against `frame.n` through a point of the plane perpendicular to it.

@@ -15,7 +15,7 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Colour, Crossing, Hit, MediaSet, Shading, Surface, World};
+use crate::build::{Colour, Crossing, Hit, MediaSet, Shading, Start as Origin, Surface, World};
 use crate::math::random::Sequence;
 use crate::math::{Color, DVec3, Health, Rare, Ray};
 use crate::optics::Interface;
@@ -54,6 +54,8 @@ struct Path {
     /// µm, once something has dispersed.
     wavelength: Option<f64>,
     falloff: Option<[f64; 3]>,
+    /// The surface on which the ray starts, once it has met one.
+    from: Option<Origin>,
 }
 
 /// A way on from a specular surface.
@@ -90,7 +92,7 @@ impl Walk<'_> {
         sink.ledger.paths += 1;
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
-        let Start { ray, power, media, falloff, .. } = start;
+        let Start { ray, power, media, falloff, emitter, .. } = start;
         let mut path = Path {
             ray,
             power,
@@ -102,11 +104,16 @@ impl Walk<'_> {
             vertex: 0,
             wavelength: None,
             falloff,
+            from: None,
         };
         let mut t_max = start.t_max;
         loop {
             sink.ledger.rays += 1;
-            let Some(hit) = self.world.nearest(&path.ray, t_max) else {
+            let hit = match path.from {
+                Some(from) => self.world.nearest_from(from, &path.ray, t_max),
+                None => self.world.nearest_from_emitter(emitter, &path.ray, t_max),
+            };
+            let Some(hit) = hit else {
                 let lost =
                     if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
                 *lost += path.power;
@@ -166,6 +173,7 @@ impl Walk<'_> {
             // Within an object of higher priority this surface does not exist. Shadow rays end at it all the same, so
             // that what has passed it is for photons to bring.
             path.events += 1;
+            path.from = Some(surface.start(path.ray.dir));
             path.ray = world.leaving(surface, crossing.tolerance, path.ray.dir);
             path.media = crossing.after;
             return true;
@@ -316,10 +324,12 @@ impl Walk<'_> {
             crossing.map_or(surface.p_error, |c| c.tolerance)
         };
         // From before an interface that touches something, so that what touches is met.
-        path.ray = if touches && i == REFRACTED {
-            Ray::reaching(surface.p, tolerance, surface.ng, dir)
+        let from = surface.start(dir);
+        (path.from, path.ray) = if touches && i == REFRACTED {
+            let from = Origin { outside: false, ..from };
+            (Some(from), Ray::reaching(surface.p, tolerance, surface.ng, dir))
         } else {
-            self.world.leaving(surface, tolerance, dir)
+            (Some(from), self.world.leaving(surface, tolerance, dir))
         };
         if i == REFRACTED
             && let Some(crossing) = crossing

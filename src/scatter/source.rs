@@ -80,6 +80,8 @@ pub(super) struct Start {
     pub t_max: f64,
     /// The classic attenuation, in place of the inverse square of the distance.
     pub falloff: Option<[f64; 3]>,
+    /// Index of its emitter in the world.
+    pub emitter: u32,
 }
 
 impl Source {
@@ -160,7 +162,11 @@ impl Source {
 
     pub(super) fn start(&self, world: &World, ray: Ray, power: DVec3) -> Start {
         let media = self.media.unwrap_or_else(|| world.media_at(ray.origin));
-        Start { ray, power, media, t_max: f64::INFINITY, falloff: None }
+        self.start_within(ray, power, media)
+    }
+
+    pub(super) fn start_within(&self, ray: Ray, power: DVec3, media: MediaSet) -> Start {
+        Start { ray, power, media, t_max: f64::INFINITY, falloff: None, emitter: self.emitter }
     }
 }
 

@@ -36,6 +36,7 @@ impl Tracer<'_> {
         let width = branch.cone.after(surface.t).width;
         let next = Branch {
             ray,
+            start: surface.start(wi),
             cone: Cone { width, spread: SPREAD },
             bounces: branch.bounces + 1,
             depth: 0,

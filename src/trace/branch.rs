@@ -3,7 +3,7 @@
 
 use super::record::Fate;
 use super::{Part, Tally, Tracer, bounce};
-use crate::build::{Cone, MediaSet};
+use crate::build::{Cone, MediaSet, Start};
 use crate::math::random::Sequence;
 use crate::math::{Color, Ray};
 
@@ -25,6 +25,8 @@ impl Class {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch {
     pub ray: Ray,
+    /// The surface on which the ray starts; of no meaning at the eye.
+    pub start: Start,
     pub throughput: Color,
     pub media: MediaSet,
     pub cone: Cone,

@@ -7,7 +7,7 @@
 use super::branch::{Branch, LIGHTS};
 use super::light::{Arrival, LightSample};
 use super::{Tally, Tracer};
-use crate::build::{MediaSet, Shading, Surface};
+use crate::build::{MediaSet, Shading, Start, Surface};
 use crate::math::{Color, Ray};
 use crate::optics::EmitterKind;
 use crate::plan::Carriers;
@@ -135,23 +135,29 @@ impl Tracer<'_> {
         if !self.plan.shadows {
             return true;
         }
-        let start = if lifted { surface.shadow_p } else { surface.p };
-        let origin = start + shading.ng * surface.p_error;
+        let p = if lifted { surface.shadow_p } else { surface.p };
+        let origin = p + shading.ng * surface.p_error;
+        let outside = above && shading.ng.dot(surface.ng) > 0.0;
+        let start = Start { instance: surface.instance, outside };
+        // What is lifted need not lie within the bounds of its surface.
+        let occluded = |ray: &Ray, t_max, except| match lifted {
+            false => self.world.occluded_from(start, ray, t_max, except),
+            true => self.world.occluded(ray, t_max, except),
+        };
         match sample.arrival {
             Arrival::Infinite => {
                 let ray = Ray { origin, dir: sample.wi };
-                !self.world.occluded(&ray, f64::INFINITY, None)
+                !occluded(&ray, f64::INFINITY, None)
             }
             // The emitter is convex: what lies before its first surface is not itself.
             Arrival::Shape { p, instance } => {
                 let ray = Ray { origin, dir: p - origin };
                 let flush = self.world.flush(&ray, p, instance);
-                !self.world.occluded(&ray, 1.0 - flush, Some(instance))
+                !occluded(&ray, 1.0 - flush, Some(instance))
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };
-                let outside = above && shading.ng.dot(surface.ng) > 0.0;
-                !self.world.hidden_from(emitter, &ray, outside.then_some(surface.instance))
+                !self.world.hidden_from(emitter, start, &ray).unwrap_or_else(|| occluded(&ray, 1.0, None))
             }
         }
     }

@@ -14,7 +14,7 @@ use super::branch::{BOUNCE, Branch, Class, LENS, MIRROR, REFLECTED, REFRACTED, W
 use super::record::{InterfaceRecord, Recorder};
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
-use crate::build::{Candidates, Cone, Crossing, Hit, MediaSet, Shading, Surface};
+use crate::build::{Candidates, Cone, Crossing, Hit, MediaSet, Shading, Start, Surface};
 use crate::math::random::Sequence;
 use crate::math::{Color, DVec2, Ray, sampling};
 use crate::plan::Carriers;
@@ -75,6 +75,7 @@ impl Tracer<'_> {
         let mut hit = self.world.nearest_from_eye(&ray, candidates);
         let mut branch = Branch {
             ray,
+            start: Start { instance: 0, outside: false },
             throughput: Color::ONE,
             media: scratch.start.unwrap_or_else(|| self.world.media_at(ray.origin)),
             cone: Cone { width: 0.0, spread: camera.pixel_spread(ray.dir) },
@@ -91,7 +92,7 @@ impl Tracer<'_> {
                 branch = next;
             }
             tally.watch.enter(branch.part());
-            hit = self.world.nearest(&branch.ray, f64::INFINITY);
+            hit = self.world.nearest_from(branch.start, &branch.ray, f64::INFINITY);
         }
         tally.note(|recorder| recorder.end(&scratch.sample));
         &scratch.sample
@@ -142,6 +143,7 @@ impl Tracer<'_> {
                 // Within an object of higher priority this surface does not exist.
                 tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
                 let Some(step) = self.step(branch, Color::ONE, 0, branch.class, tally) else { return false };
+                branch.start = surface.start(branch.ray.dir);
                 branch.ray = self.world.leaving(&surface, through.tolerance, branch.ray.dir);
                 branch.cone = branch.cone.after(surface.t);
                 branch.media = through.after;
@@ -192,6 +194,7 @@ impl Tracer<'_> {
         tally: &mut Tally,
     ) {
         let wi = shading.mirrored(&mut tally.health);
+        branch.start = surface.start(wi);
         branch.ray = self.world.leaving(surface, tolerance, wi);
         branch.cone = branch.cone.after(surface.t);
     }
@@ -277,10 +280,11 @@ impl Tracer<'_> {
         let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
         let Some(step) = self.step(branch, weight, REFRACTED, Class::Refraction, tally) else { return false };
         // From before the interface, which is no longer there for it, so that what touches is met.
-        branch.ray = if touches {
-            Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi)
+        (branch.start, branch.ray) = if touches {
+            let start = Start { outside: false, ..surface.start(wi) };
+            (start, Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi))
         } else {
-            self.world.leaving(surface, crossing.tolerance, wi)
+            (surface.start(wi), self.world.leaving(surface, crossing.tolerance, wi))
         };
         branch.media = crossing.after;
         branch.cone = branch.cone.after(surface.t).refracted(eta);
