@@ -76,12 +76,14 @@ impl Film {
 
     /// How far it still is from the truth; `None` where that is unknown.
     pub fn accuracy(&self) -> Option<Accuracy> {
+        self.measured().next()?;
         Accuracy::of(self.measured(), self.probes(), &self.brightness(), self.rates)
     }
 
     /// The same where passes in between are missing: what is known of how well distributed they are does not
     /// hold, and they count as independent.
     pub fn accuracy_of_any_passes(&self) -> Option<Accuracy> {
+        self.measured().next()?;
         Accuracy::of_independent(self.measured(), self.probes(), &self.brightness(), self.rates)
     }
 

@@ -28,6 +28,21 @@ impl Cone {
     }
 }
 
+/// What is seen under a flatter angle counts as seen under this one.
+const LEAST_COS: f64 = 1e-4;
+
+/// Bounds on how far the cone reaches along u and v: its longest way on the surface, were it the steepest one of
+/// either. May be NaN.
+#[inline]
+pub fn reach(surface: &Surface, coordinates: &Coordinates, wo: DVec3, cone: &Cone) -> DVec2 {
+    let longest = (cone.width + cone.spread * surface.t) / wo.dot(surface.ng).abs().max(LEAST_COS);
+    let (u, v) = (coordinates.dpdu, coordinates.dpdv);
+    let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+    // |∇u|² = vv/det, |∇v|² = uu/det.
+    let inverse = (1.0 + 1e-9) / (uu * vv - uv * uv);
+    DVec2::new((vv * inverse).sqrt(), (uu * inverse).sqrt()) * longest
+}
+
 /// The point of a surface for texture lookups, with the ellipse in which the cone meets it; `scale` is
 /// that of the surface's placement.
 #[inline]
@@ -45,7 +60,7 @@ pub fn texture_point(
     let sin2 = along.length_squared();
     let axes = if sin2 > 1e-12 {
         // The roots and divisions wait for nothing but their own arguments.
-        let (sin, longer) = (sin2.sqrt(), radius / height.abs().max(1e-4));
+        let (sin, longer) = (sin2.sqrt(), radius / height.abs().max(LEAST_COS));
         let inverse = 1.0 / sin;
         [along * (longer * inverse), n.cross(along) * (radius * inverse)]
     } else {

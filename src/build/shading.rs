@@ -1,6 +1,6 @@
 //! The material at a surface point: weights looked up, normal bent, sides told apart.
 
-use super::footprint::{Cone, texture_point};
+use super::footprint::{Cone, reach, texture_point};
 use super::{Surface, World};
 use crate::math::{Color, DVec3};
 use crate::optics::{
@@ -27,24 +27,23 @@ impl<'a> Shading<'a> {
         shading
     }
 
-    /// What the material is without its textures: they count as black, and bend no normal. To be followed by
+    /// What the material is without its textures: they count as white, and bend no normal. To be followed by
     /// [`Shading::look_up`]; apart from it, so that neither copies the other's result.
     #[inline(always)]
     pub fn bare(world: &'a World, surface: &Surface, wo: DVec3) -> Shading<'a> {
         let material = &world.materials[surface.material.0 as usize];
         let outside = wo.dot(surface.ng) >= 0.0;
-        let at = |weight: &Weight| if let Weight::Constant(value) = weight { *value } else { Color::ZERO };
         let turn = if outside { 1.0 } else { -1.0 };
         Shading {
             material,
             wo,
             ng: surface.ng * turn,
             ns: surface.ns * turn,
-            kd: at(&material.diffuse),
-            ks: at(&material.specular),
-            km: at(&material.reflection),
-            kt: at(&material.transmission),
-            emission: if outside || material.emits_back { at(&material.emission) } else { Color::ZERO },
+            kd: material.diffuse.factor(),
+            ks: material.specular.factor(),
+            km: material.reflection.factor(),
+            kt: material.transmission.factor(),
+            emission: if outside || material.emits_back { material.emission.factor() } else { Color::ZERO },
         }
     }
 
@@ -62,10 +61,16 @@ impl<'a> Shading<'a> {
         let material = self.material;
         let scale = world.instances[surface.instance as usize].placement.scale();
         let coordinates = world.coordinates(surface);
-        let point = texture_point(surface, &coordinates, scale, self.wo, cone);
-        let look = |weight: &Weight, value: &mut Color| {
-            if weight.textured() {
-                *value = weight.at(&world.textures, &point);
+        let wo = self.wo;
+        let reach = reach(surface, &coordinates, wo, cone);
+        let mut found = None;
+        let mut point =
+            || *found.get_or_insert_with(|| texture_point(surface, &coordinates, scale, wo, cone));
+        let mut look = |weight: &Weight, value: &mut Color| {
+            if let Weight::Texture(id, factor) = *weight {
+                let texture = &world.textures[id.0 as usize];
+                let within = texture.color_within(coordinates.uv, reach);
+                *value = factor * within.unwrap_or_else(|| texture.color(&point()));
             }
         };
         look(&material.diffuse, &mut self.kd);
@@ -76,7 +81,7 @@ impl<'a> Shading<'a> {
             look(&material.emission, &mut self.emission);
         }
         if !material.relief.is_empty() {
-            self.ns = bent_normal(world, material, surface, &coordinates, &point)
+            self.ns = bent_normal(world, material, surface, &coordinates, &point())
                 * if outside { 1.0 } else { -1.0 };
         }
     }

@@ -91,7 +91,11 @@ impl Health {
     /// Looks at a finite sample's radiance.
     #[inline]
     pub fn see(&mut self, radiance: Color) {
-        self.brightest = self.brightest.max(radiance.max_element());
+        let brightest = radiance.max_element();
+        // Not `max`, which would look for what is not a number.
+        if brightest > self.brightest {
+            self.brightest = brightest;
+        }
     }
 
     pub fn of(&self, event: Rare) -> u64 {

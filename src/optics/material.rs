@@ -33,6 +33,14 @@ impl Weight {
         }
     }
 
+    /// All of it but the texture.
+    #[inline]
+    pub fn factor(&self) -> Color {
+        match *self {
+            Weight::Constant(value) | Weight::Texture(_, value) => value,
+        }
+    }
+
     /// Whether evaluating it needs surface coordinates.
     pub fn textured(&self) -> bool {
         matches!(self, Weight::Texture(..))

@@ -141,10 +141,12 @@ impl Form {
 
     fn layers(&self) -> Layers {
         let options = Options { aovs: self.aovs(), untold: !self.told, ..Options::default() };
+        // What is kept may be added to, whatever its passes.
+        let wants = options.wants(self.width, self.height, u32::MAX);
         let [first, end] = self.passes;
         let divided = self.of > 1 && self.by == By::Passes;
         let parts = if divided { Parts::Of { first, passes: end - first } } else { Parts::Growing };
-        Layers { parts, ..trace::layers(&options.wants(self.width, self.height)) }
+        Layers { parts, ..trace::layers(&wants) }
     }
 
     /// An empty film of some of the shards.

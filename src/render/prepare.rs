@@ -38,7 +38,7 @@ impl Prepared {
     ) -> Result<(Prepared, PassMaps), RenderError> {
         let plan = Plan::new(&loaded.scene, &options.request())?;
         options.check(&plan, loaded.scene.image.width, loaded.scene.image.height)?;
-        room::check(options, loaded.scene.image.width, loaded.scene.image.height)?;
+        room::check(options, &plan, loaded.scene.image.width, loaded.scene.image.height)?;
         clock.lap("plan");
 
         progress.start("build", 1, "scene");
@@ -46,7 +46,7 @@ impl Prepared {
         progress.finish();
         clock.lap("build");
 
-        let wants = options.wants(world.camera.width, world.camera.height);
+        let wants = options.wants(world.camera.width, world.camera.height, plan.passes);
         let mut reference_level = 1.0;
         if matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
             let tracer = Tracer {

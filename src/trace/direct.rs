@@ -21,13 +21,14 @@ impl Tracer<'_> {
     /// Lambert layer.
     pub(super) fn direct(
         &self,
+        carried: Carriers,
         base: Color,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
         tally: &mut Tally,
     ) -> Color {
-        let (carried, sequence) = (self.carried(branch), branch.sequence);
+        let sequence = branch.sequence;
         let if_carried = |effect, weight| if carried.any(effect) { weight } else { Color::ZERO };
         let lamps =
             Lobes::of(if_carried(Carriers::DIRECT, base), if_carried(Carriers::HIGHLIGHTS, shading.ks));

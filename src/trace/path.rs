@@ -158,7 +158,7 @@ impl Tracer<'_> {
         let carried = self.carried(branch);
         let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
         let emitted = if seen { shading.emitted() } else { Color::ZERO };
-        let radiance = emitted + self.shaded(branch, &surface, &shading, sample, todo, tally);
+        let radiance = emitted + self.shaded(carried, branch, &surface, &shading, sample, todo, tally);
         tally.note(|recorder| recorder.meet(self.world, &surface, emitted));
         self.deposit(sample, branch, radiance, tally);
         if shading.km != Color::ZERO && carried.any(Carriers::REFLECTION) {
@@ -294,8 +294,11 @@ impl Tracer<'_> {
     }
 
     /// What the layers that are not specular send on; the path's further way is pushed.
+    #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
+    #[inline]
     fn shaded(
         &self,
+        carried: Carriers,
         branch: &Branch,
         surface: &Surface,
         shading: &Shading,
@@ -307,11 +310,10 @@ impl Tracer<'_> {
         if base == Color::ZERO && shading.ks == Color::ZERO {
             return Color::ZERO;
         }
-        let carried = self.carried(branch);
         let ambient = if carried.any(Carriers::SEEN) { base * self.world.ambient } else { Color::ZERO };
         tally.watch.enter(Part::Direct);
         tally.note(|recorder| recorder.ambient(ambient));
-        let radiance = ambient + self.direct(base, branch, surface, shading, tally);
+        let radiance = ambient + self.direct(carried, base, branch, surface, shading, tally);
         if self.caustics.is_none() && self.indirect.is_none() && branch.bounces >= self.plan.bounces {
             tally.watch.enter(branch.part());
             return radiance;

@@ -19,6 +19,13 @@ pub struct Wants {
     pub probes: Option<Probes>,
 }
 
+impl Wants {
+    /// Whether a sample's radiance is all that a pixel keeps of it.
+    pub(super) fn radiance_alone(&self) -> bool {
+        !(self.first_hit || self.split || self.photons)
+    }
+}
+
 /// The radiance along one camera ray, W·m⁻²·sr⁻¹, and what the ray met first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {

@@ -5,6 +5,7 @@
 
 use super::filter::{level, square_wave};
 use super::{Colors, TexturePoint};
+use crate::math::Color;
 use glam::{DVec2, DVec3};
 
 /// Squares in (u, v): that at (0, 0) to (1, 1)/`squares` is `a`.
@@ -22,14 +23,17 @@ impl Checker {
 
     #[inline]
     pub(super) fn weight(&self, at: &TexturePoint) -> f64 {
-        let (x, scale) = (at.uv * self.squares, self.squares.abs());
-        // Most footprints end within a square by the widest that they can be, which spares their roots.
-        let widest = at.widest_extent() * scale;
-        if let (Some(u), Some(v)) = (level(x.x, widest.x), level(x.y, widest.y)) {
-            return if u == v { 0.0 } else { 1.0 };
-        }
-        let half = at.half_extent() * scale;
+        let x = at.uv * self.squares;
+        let half = at.half_extent() * self.squares.abs();
         0.5 - 0.5 * square_wave(x.x, half.x) * square_wave(x.y, half.y)
+    }
+
+    /// That of a square, if `reach` ends within it.
+    #[inline]
+    pub(super) fn color_within(&self, uv: DVec2, reach: DVec2) -> Option<Color> {
+        let (x, half) = (uv * self.squares, reach * self.squares.abs());
+        let (u, v) = (level(x.x, half.x)?, level(x.y, half.y)?);
+        Some(if u == v { self.colors.a } else { self.colors.b })
     }
 
     pub(super) fn step(&self) -> DVec2 {

@@ -56,13 +56,6 @@ impl TexturePoint {
         DVec2::new(extent(a.x, b.x), extent(a.y, b.y))
     }
 
-    /// An upper bound on [`TexturePoint::half_extent`], without roots; may be NaN.
-    #[inline]
-    fn widest_extent(&self) -> DVec2 {
-        let [a, b] = self.duv;
-        a.abs() + b.abs()
-    }
-
     /// The footprint's radius in object space; never negative, never NaN.
     fn radius(&self) -> f64 {
         self.dp.max(0.0)
@@ -95,6 +88,16 @@ impl Texture {
             Texture::Marble(t) => t.colors.blend(t.weight(at)),
             Texture::Wood(t) => t.colors.blend(t.weight(at)),
             Texture::Brick(t) => t.colors.blend(t.weight(at)),
+        }
+    }
+
+    /// The colour at `uv`, if it is the same everywhere within `reach` along u and v and that can be told at once:
+    /// what [`Texture::color`] finds of every footprint in there.
+    #[inline]
+    pub fn color_within(&self, uv: DVec2, reach: DVec2) -> Option<Color> {
+        match self {
+            Texture::Checker(checker) => checker.color_within(uv, reach),
+            _ => None,
         }
     }
 

@@ -25,13 +25,19 @@ pub(super) struct Average {
 }
 
 impl PixelValue {
+    /// Becomes the value of a pixel of which nothing but the radiance is wanted.
+    #[inline]
+    pub(super) fn of_radiance(&mut self, radiance: DVec3, samples: u32) {
+        (self.radiance, self.samples) = (radiance, samples);
+        (self.bias, self.pair) = (None, None);
+    }
+
     /// Becomes the value of a pixel with one sample: that of an [`Average`] of it. What is not wanted stays as
     /// it is.
     #[inline]
     pub(super) fn set(&mut self, sample: &Sample, wants: Wants) {
         let value = self;
-        (value.radiance, value.samples) = (sample.radiance.as_dvec3(), 1);
-        (value.bias, value.pair) = (None, None);
+        value.of_radiance(sample.radiance.as_dvec3(), 1);
         if wants.split {
             value.direct = sample.direct.as_dvec3();
             value.reflection = sample.reflection.as_dvec3();

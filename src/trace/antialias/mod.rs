@@ -5,7 +5,7 @@ mod average;
 
 use super::{Probes, Sample, Scratch, Tally, Tracer, Wants};
 use crate::math::random::{Sequence, Stage};
-use crate::math::{DVec2, Place};
+use crate::math::{DVec2, DVec3, Place};
 use crate::plan::Antialiasing;
 use crate::trace::{PixelValue, Tile};
 use average::Average;
@@ -34,22 +34,45 @@ fn grid(tracer: &Tracer, n: u32, pass: u32, tile: &mut Tile, scratch: &mut Scrat
     let mut is_probe = probes(tracer);
     let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(n);
     let within: Vec<DVec2> = (0..n * n).map(|i| DVec2::new(centre(i % n), centre(i / n))).collect();
+    let mut value = PixelValue::default();
     for (x, y) in tile.pixels() {
         let pixel = Sequence::new(tracer.plan.seed, Stage::Film, pixel_number(tracer, x, y), 0);
         let probe = is_probe(x, y);
-        let mut average = Average::of(wants(tracer, probe));
+        let wants = wants(tracer, probe);
         look(tally, probe, tracer.wants.bias, pass);
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let candidates = tracer.world.before_eye(corner);
-        for (i, within) in (0u32..).zip(&within) {
-            let sequence = pixel.at(pass.wrapping_mul(n * n).wrapping_add(i));
-            let sample = tracer.sample_among(candidates, corner + within, sequence, scratch, tally);
-            add_finite(&mut average, sample, Place { x, y, pass }, tally);
+        let samples = (0u32..).zip(&within).map(|(i, within)| {
+            let index = pass.wrapping_mul(n * n).wrapping_add(i);
+            (corner + within, pixel.at(index))
+        });
+        let place = Place { x, y, pass };
+        if wants.radiance_alone() {
+            let (mut sum, mut count) = (DVec3::ZERO, 0);
+            for (film, sequence) in samples {
+                let sample = tracer.sample_among(candidates, film, sequence, scratch, tally);
+                if checked(sample, place, tally) {
+                    sum += sample.radiance.as_dvec3();
+                    count += 1;
+                }
+            }
+            if count == 0 {
+                continue;
+            }
+            value.of_radiance(sum * (1.0 / f64::from(count)), n * n);
+        } else {
+            let mut average = Average::of(wants);
+            for (film, sequence) in samples {
+                let sample = tracer.sample_among(candidates, film, sequence, scratch, tally);
+                if checked(sample, place, tally) {
+                    average.add(sample, 1.0);
+                }
+            }
+            let Some(mean) = average.value(n * n) else { continue };
+            value = mean;
         }
-        if let Some(mut value) = average.value(n * n) {
-            look_up(&mut value, tally, n * n);
-            tile.add_as(probe, x, y, &value);
-        }
+        look_up(&mut value, tally, n * n);
+        tile.add_as(probe, x, y, &value);
     }
 }
 
@@ -94,12 +117,9 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
         let probe = is_probe(x, y);
         look(tally, probe, tracer.wants.bias, pass);
         let sample = tracer.sample(film, sequence, scratch, tally);
-        if !sample.is_finite() {
-            tally.health.non_finite(Place { x, y, pass });
+        if !checked(sample, Place { x, y, pass }, tally) {
             continue;
         }
-        tally.health.see(sample.radiance);
-        tally.note(|recorder| recorder.weigh_last(1.0));
         value.set(sample, wants(tracer, probe));
         look_up(&mut value, tally, 1);
         if probe && pass.is_multiple_of(PAIR) {
@@ -112,13 +132,15 @@ fn progressive(tracer: &Tracer, pass: u32, tile: &mut Tile, scratch: &mut Scratc
     }
 }
 
+/// Whether a sample can be added up; takes note of it either way.
 #[inline]
-fn add_finite(average: &mut Average, sample: &Sample, place: Place, tally: &mut Tally) {
-    if sample.is_finite() {
+fn checked(sample: &Sample, place: Place, tally: &mut Tally) -> bool {
+    let finite = sample.is_finite();
+    if finite {
         tally.health.see(sample.radiance);
         tally.note(|recorder| recorder.weigh_last(1.0));
-        average.add(sample, 1.0);
     } else {
         tally.health.non_finite(place);
     }
+    finite
 }
