@@ -38,7 +38,7 @@ impl Prepared {
     ) -> Result<(Prepared, PassMaps), RenderError> {
         let plan = Plan::new(&loaded.scene, &options.request())?;
         options.check(&plan, loaded.scene.image.width, loaded.scene.image.height)?;
-        room::check(options, &plan, loaded.scene.image.width, loaded.scene.image.height)?;
+        room::check(options, plan.passes, loaded.scene.image.width, loaded.scene.image.height)?;
         clock.lap("plan");
 
         progress.start("build", 1, "scene");

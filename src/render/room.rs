@@ -3,24 +3,23 @@
 
 use super::{Options, Planned, RenderError};
 use crate::forecast::memory;
-use crate::plan::Plan;
 use crate::trace::{self, Tile};
 
 /// The side of the tile whose memory is measured.
 const SIDE: u32 = 64;
 
 /// Bytes of sums a pixel, and of layers: in single precision, finished and as they are written.
-fn bytes_per_pixel(options: &Options, plan: &Plan, width: u32, height: u32) -> [u64; 2] {
-    let layers = trace::layers(&options.wants(width, height, plan.passes));
+fn bytes_per_pixel(options: &Options, passes: u32, width: u32, height: u32) -> [u64; 2] {
+    let layers = trace::layers(&options.wants(width, height, passes));
     let tile = Tile::new(0, 0, SIDE, SIDE, layers).memory_bytes() as u64;
     let values = 3 + 3 * options.aovs.len() as u64;
     [tile.div_ceil(u64::from(SIDE * SIDE)), 2 * size_of::<f32>() as u64 * values]
 }
 
 /// Refuses an image that takes more than `options.memory`, or than the machine has.
-pub(super) fn check(options: &Options, plan: &Plan, width: u32, height: u32) -> Result<(), RenderError> {
+pub(super) fn check(options: &Options, passes: u32, width: u32, height: u32) -> Result<(), RenderError> {
     let Some(limit) = options.memory.or_else(memory::machine) else { return Ok(()) };
-    let [sums, layers] = bytes_per_pixel(options, plan, width, height);
+    let [sums, layers] = bytes_per_pixel(options, passes, width, height);
     // At most 2^16 a side, checked with the scene: no product overflows.
     let (width, height) = options.crop.map_or((width, height), |crop| (crop.width(), crop.height()));
     let bytes = u64::from(width) * u64::from(height) * (sums + layers);
@@ -65,9 +64,9 @@ mod tests {
     fn images_are_refused_from_one_byte_above_the_limit() {
         for aovs in [vec![], vec![Aov::Variance, Aov::Normal]] {
             let of = |memory| Options { aovs: aovs.clone(), memory, ..Options::default() };
-            let bytes = 640 * 480 * bytes_per_pixel(&of(None), 640, 480).iter().sum::<u64>();
-            assert!(check(&of(Some(bytes)), 640, 480).is_ok());
-            let refused = check(&of(Some(bytes - 1)), 640, 480);
+            let bytes = 640 * 480 * bytes_per_pixel(&of(None), 2, 640, 480).iter().sum::<u64>();
+            assert!(check(&of(Some(bytes)), 2, 640, 480).is_ok());
+            let refused = check(&of(Some(bytes - 1)), 2, 640, 480);
             assert!(matches!(refused, Err(RenderError::TooLarge(message)) if message.contains("640 × 480")));
         }
     }
