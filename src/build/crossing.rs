@@ -115,11 +115,9 @@ impl Shading<'_> {
     pub fn mirrored(&self, health: &mut Health) -> DVec3 {
         let wi = reflected(self.wo, self.ns);
         let height = wi.dot(self.ng);
-        if height > 0.0 { wi } else { self.mirrored_back(wi, height, health) }
-    }
-
-    #[cold]
-    fn mirrored_back(&self, wi: DVec3, height: f64, health: &mut Health) -> DVec3 {
+        if height > 0.0 {
+            return wi;
+        }
         health.count(Rare::DirectionThroughSurface);
         (wi - self.ng * (2.0 * height)).normalize()
     }

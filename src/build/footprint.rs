@@ -31,16 +31,16 @@ impl Cone {
 /// What is seen under a flatter angle counts as seen under this one.
 const LEAST_COS: f64 = 1e-4;
 
-/// Bounds on how far the cone reaches along u and v: its longest way on the surface, were it the steepest one of
-/// either. May be NaN.
+/// Bounds on the squares of how far the cone reaches along u and v: its longest way on the surface, were it the
+/// steepest one of either. Without roots, and with a single division. May be NaN.
 #[inline]
-pub fn reach(surface: &Surface, coordinates: &Coordinates, wo: DVec3, cone: &Cone) -> DVec2 {
-    let longest = (cone.width + cone.spread * surface.t) / wo.dot(surface.ng).abs().max(LEAST_COS);
+pub fn squared_reach(surface: &Surface, coordinates: &Coordinates, wo: DVec3, cone: &Cone) -> DVec2 {
+    let (radius, cos) = (cone.width + cone.spread * surface.t, wo.dot(surface.ng).abs().max(LEAST_COS));
     let (u, v) = (coordinates.dpdu, coordinates.dpdv);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
-    // |∇u|² = vv/det, |∇v|² = uu/det.
-    let inverse = (1.0 + 1e-9) / (uu * vv - uv * uv);
-    DVec2::new((vv * inverse).sqrt(), (uu * inverse).sqrt()) * longest
+    // The longest way is radius/cos; |∇u|² = vv/det, |∇v|² = uu/det.
+    let det = uu * vv - uv * uv;
+    DVec2::new(vv, uu) * (radius * radius * (1.0 + 1e-9) / (det * (cos * cos)))
 }
 
 /// The point of a surface for texture lookups, with the ellipse in which the cone meets it; `scale` is

@@ -20,20 +20,25 @@ impl World {
     pub fn leaving(&self, surface: &Surface, tolerance: f64, dir: DVec3) -> Ray {
         let ray = Ray::leaving(surface.p, tolerance, surface.ng, dir);
         let inwards = dir.dot(surface.ng) < 0.0 && self.instances[surface.instance as usize].rank != 0;
-        if inwards { self.start_within(surface, tolerance, ray) } else { ray }
+        if inwards {
+            Ray { origin: self.start_within(surface, tolerance, ray.origin), dir }
+        } else {
+            ray
+        }
     }
 
-    fn start_within(&self, surface: &Surface, tolerance: f64, ray: Ray) -> Ray {
+    #[inline(never)]
+    fn start_within(&self, surface: &Surface, tolerance: f64, start: DVec3) -> DVec3 {
         let placement = &self.instances[surface.instance as usize].placement;
         let by = AWAY * tolerance / placement.least_stretch();
         match self.geometry(surface.instance) {
             Geometry::Shape(shape) => match within(shape, surface.local, by) {
-                Some(local) => Ray { origin: placement.point(local), ..ray },
-                None => ray,
+                Some(local) => placement.point(local),
+                None => start,
             },
             Geometry::Mesh(mesh) => match off_edges(&mesh.surface, surface.primitive, surface.local, by) {
-                Some(shift) => Ray { origin: ray.origin + placement.vector(shift), ..ray },
-                None => ray,
+                Some(shift) => start + placement.vector(shift),
+                None => start,
             },
         }
     }

@@ -1,10 +1,10 @@
 //! The material at a surface point: weights looked up, normal bent, sides told apart.
 
-use super::footprint::{Cone, reach, texture_point};
+use super::footprint::{Cone, squared_reach, texture_point};
 use super::{Surface, World};
 use crate::math::{Color, DVec3};
 use crate::optics::{
-    Coordinates, Material, Relief, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map,
+    Coordinates, Material, Relief, TextureId, TexturePoint, Weight, bumped_normal, perturbed_normal_from_map,
 };
 
 /// A surface point ready for shading. Both normals are turned to the side of `wo`.
@@ -62,23 +62,30 @@ impl<'a> Shading<'a> {
         let scale = world.instances[surface.instance as usize].placement.scale();
         let coordinates = world.coordinates(surface);
         let wo = self.wo;
-        let reach = reach(surface, &coordinates, wo, cone);
+        let reach2 = squared_reach(surface, &coordinates, wo, cone);
         let mut found = None;
         let mut point =
             || *found.get_or_insert_with(|| texture_point(surface, &coordinates, scale, wo, cone));
-        let mut look = |weight: &Weight, value: &mut Color| {
-            if let Weight::Texture(id, factor) = *weight {
-                let texture = &world.textures[id.0 as usize];
-                let within = texture.color_within(coordinates.uv, reach);
-                *value = factor * within.unwrap_or_else(|| texture.color(&point()));
-            }
+        let mut look = |id: TextureId, factor: Color| {
+            let texture = &world.textures[id.0 as usize];
+            factor * texture.color_within(coordinates.uv, reach2).unwrap_or_else(|| texture.color(&point()))
         };
-        look(&material.diffuse, &mut self.kd);
-        look(&material.specular, &mut self.ks);
-        look(&material.reflection, &mut self.km);
-        look(&material.transmission, &mut self.kt);
-        if outside || material.emits_back {
-            look(&material.emission, &mut self.emission);
+        if let Weight::Texture(id, factor) = material.diffuse {
+            self.kd = look(id, factor);
+        }
+        if let Weight::Texture(id, factor) = material.specular {
+            self.ks = look(id, factor);
+        }
+        if let Weight::Texture(id, factor) = material.reflection {
+            self.km = look(id, factor);
+        }
+        if let Weight::Texture(id, factor) = material.transmission {
+            self.kt = look(id, factor);
+        }
+        if let Weight::Texture(id, factor) = material.emission
+            && (outside || material.emits_back)
+        {
+            self.emission = look(id, factor);
         }
         if !material.relief.is_empty() {
             self.ns = bent_normal(world, material, surface, &coordinates, &point())

@@ -103,7 +103,15 @@ impl<const SIDE: usize> Sight<SIDE> {
         };
         let face = 2 * axis + usize::from(dir[axis] > 0.0);
         let scale = 0.5 * SIDE as f64 / size[axis];
-        let cell = |x: f64| ((x * scale + 0.5 * SIDE as f64) as i32).clamp(0, SIDE as i32 - 1) as usize;
+        let cell = |x: f64| {
+            // Rounded to a whole number by adding one so large that its last bit is 1: on the border of two cells
+            // either will do. Comparisons, unlike `clamp`, take NaN to 0.
+            const LARGE: f64 = 1.5 * (1u64 << 52) as f64;
+            let at = x * scale + (0.5 * SIDE as f64 - 0.5);
+            let at = if at > 0.0 { at } else { 0.0 };
+            let at = if at < SIDE as f64 - 1.0 { at } else { SIDE as f64 - 1.0 };
+            (at + LARGE).to_bits() as usize % SIDE
+        };
         Left(self.cells[(face * SIDE + cell(across[1])) * SIDE + cell(across[0])])
     }
 

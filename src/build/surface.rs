@@ -25,8 +25,8 @@ pub struct Surface {
     pub instance: u32,
     /// Face of a shape, triangle of a mesh.
     pub primitive: u32,
-    /// Where shadow rays start: `p`, or lifted off the facets of a smooth mesh.
-    pub shadow_p: DVec3,
+    /// Where shadow rays start if not at `p`: lifted off the facets of a smooth mesh.
+    pub lifted: Option<DVec3>,
 }
 
 impl Surface {
@@ -65,7 +65,7 @@ impl World {
                     material: binding[0],
                     instance: hit.instance,
                     primitive: hit.primitive,
-                    shadow_p: p,
+                    lifted: None,
                 }
             }
             Geometry::Mesh(mesh) => self.mesh_surface(&mesh.surface, ray, hit, placement, binding),
@@ -84,7 +84,7 @@ impl World {
         let part = mesh.part(hit.primitive) as usize;
         let facet = mesh.facet(hit.primitive, hit.b);
         let LocalSurface { p: local, p_error, ng, ns, uv, dpdu, dpdv } = facet.surface();
-        let shadow_p = (!mesh.normals.is_empty()).then(|| {
+        let lifted = (!mesh.normals.is_empty()).then(|| {
             let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
             placement.point(facet.shadow_terminator_point(front))
         });
@@ -103,7 +103,7 @@ impl World {
             material: binding[part.min(binding.len() - 1)],
             instance: hit.instance,
             primitive: hit.primitive,
-            shadow_p: shadow_p.unwrap_or(p),
+            lifted: lifted.filter(|&lifted| lifted != p),
         }
     }
 

@@ -8,12 +8,14 @@ use super::share::{Steps, stretches};
 use super::stop::Stop;
 use super::{Options, Planned, Progress, RenderError};
 use crate::film::Film;
+use crate::plan::Antialiasing;
 use crate::trace::{self, Tally, Tracer};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// One sample in so many is timed by its parts.
-const TIMED: u32 = 61;
+/// One sample in so many is timed by its parts: where they are millions, fewer of them tell as much.
+const TIMED: [u32; 2] = [61, 251];
+const MILLIONS: u64 = 3_000_000;
 
 /// Passes that a tile works through before progress is reported.
 const BATCH: u32 = 8;
@@ -134,6 +136,9 @@ fn tiles_of(
     waits: &(impl Fn() -> bool + Sync),
     progress: &dyn Progress,
 ) -> Vec<Tally> {
+    let a_pass = if let Antialiasing::Grid(n) = tracer.plan.antialiasing { u64::from(n * n) } else { 1 };
+    let samples = film.window.pixels() as u64 * u64::from(step.end - step.start) * a_pass;
+    let timed = TIMED[usize::from(samples > MILLIONS)];
     film.tiles
         .par_iter_mut()
         .filter_map(|tile| {
@@ -142,7 +147,7 @@ fn tiles_of(
                 return None;
             }
             let count = u64::from(passes.end - passes.start);
-            let tally = trace::passes(tracer, passes, tile, TIMED);
+            let tally = trace::passes(tracer, passes, tile, timed);
             progress.advance(count);
             Some(tally)
         })

@@ -127,7 +127,7 @@ impl Tracer<'_> {
 
     /// Whether nothing hides the light of an emitter, by its index.
     fn visible(&self, emitter: usize, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
-        let lifted = surface.shadow_p != surface.p;
+        let lifted = surface.lifted.is_some();
         let above = sample.wi.dot(shading.ng) > 0.0;
         if !above && !lifted {
             // Lit through the back of the surface: only the shading normal says otherwise.
@@ -136,8 +136,7 @@ impl Tracer<'_> {
         if !self.plan.shadows {
             return true;
         }
-        let p = if lifted { surface.shadow_p } else { surface.p };
-        let origin = p + shading.ng * surface.p_error;
+        let origin = surface.lifted.unwrap_or(surface.p) + shading.ng * surface.p_error;
         let outside = above && shading.ng.dot(surface.ng) > 0.0;
         let start = Start { instance: surface.instance, outside };
         // What is lifted need not lie within the bounds of its surface.

@@ -114,8 +114,19 @@ impl Shape {
     }
 
     /// The nearest hit with `t_min` < t < `t_max`, from either side.
-    #[inline]
+    ///
+    /// The two most common shapes are met where this is called, without a call.
+    #[inline(always)]
     pub fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
+        match self {
+            Shape::Sphere(sphere) => sphere.nearest(ray, t_min, t_max),
+            Shape::Quad(quad) => quad.nearest(ray, t_min, t_max),
+            _ => self.nearest_of_others(ray, t_min, t_max),
+        }
+    }
+
+    #[inline(never)]
+    fn nearest_of_others(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         each!(self, s => s.nearest(ray, t_min, t_max))
     }
 
@@ -127,8 +138,17 @@ impl Shape {
     }
 
     /// The same without coordinates, which are dear to compute.
-    #[inline]
+    #[inline(always)]
     pub fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
+        match self {
+            Shape::Sphere(sphere) => sphere.bare_surface(ray, hit),
+            Shape::Quad(quad) => quad.bare_surface(ray, hit),
+            _ => self.bare_surface_of_others(ray, hit),
+        }
+    }
+
+    #[inline(never)]
+    fn bare_surface_of_others(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
         each!(self, s => s.bare_surface(ray, hit))
     }
 

@@ -63,7 +63,7 @@ impl Surface for Quad {
         (-corner, corner)
     }
 
-    #[inline]
+    #[inline(always)]
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         let (t, p) = plane_crossing(ray, t_min, t_max)?;
         (p.x.abs() <= self.half.x && p.z.abs() <= self.half.y).then_some(ShapeHit { t, face: 0 })

@@ -69,7 +69,7 @@ impl Surface for Sphere {
         (self.center, self.radius)
     }
 
-    #[inline]
+    #[inline(always)]
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
         let [enter, exit] = robust::sphere_roots(ray.origin - self.center, ray.dir, self.radius)?;
         let t = if t_min < enter { enter } else { exit };

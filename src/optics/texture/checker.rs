@@ -28,11 +28,11 @@ impl Checker {
         0.5 - 0.5 * square_wave(x.x, half.x) * square_wave(x.y, half.y)
     }
 
-    /// That of a square, if `reach` ends within it.
+    /// That of a square, if the roots of `reach2` end within it.
     #[inline]
-    pub(super) fn color_within(&self, uv: DVec2, reach: DVec2) -> Option<Color> {
-        let (x, half) = (uv * self.squares, reach * self.squares.abs());
-        let (u, v) = (level(x.x, half.x)?, level(x.y, half.y)?);
+    pub(super) fn color_within(&self, uv: DVec2, reach2: DVec2) -> Option<Color> {
+        let (x, half2) = (uv * self.squares, reach2 * (self.squares * self.squares));
+        let (u, v) = (level(x.x, half2.x)?, level(x.y, half2.y)?);
         Some(if u == v { self.colors.a } else { self.colors.b })
     }
 

@@ -34,13 +34,18 @@ pub fn square_wave(x: f64, half: f64) -> f64 {
     2.0 * pulses(0.5 * x, 0.5 * half, 0.0, 0.5) - 1.0
 }
 
-/// Whether the square wave of [`square_wave`] is −1 over all of [x − half, x + half]; `None` where it changes, and
-/// where numbers are too large or not numbers.
+/// Whether the square wave of [`square_wave`] is −1 over all of [x − √half2, x + √half2]; `None` where it changes,
+/// and where numbers are too large or not numbers.
 #[inline]
-pub fn level(x: f64, half: f64) -> Option<bool> {
-    let (low, high) = (x - half, x + half);
-    let step = floor(x);
-    (step <= low && high <= step + 1.0 && step.abs() < 1e15).then_some(step as i64 & 1 == 1)
+pub fn level(x: f64, half2: f64) -> Option<bool> {
+    if x.abs() >= 1e15 {
+        return None;
+    }
+    let truncated = x as i64;
+    let step = truncated - i64::from(truncated as f64 > x);
+    let above = x - step as f64;
+    let nearest = if above < 0.5 { above } else { 1.0 - above };
+    (half2 >= 0.0 && half2 <= nearest * nearest).then_some(step & 1 == 1)
 }
 
 /// The fractional part in [0, 1); 0 for NaN and infinities.

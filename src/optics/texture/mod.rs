@@ -91,12 +91,12 @@ impl Texture {
         }
     }
 
-    /// The colour at `uv`, if it is the same everywhere within `reach` along u and v and that can be told at once:
-    /// what [`Texture::color`] finds of every footprint in there.
+    /// The colour at `uv`, if it is the same everywhere within the roots of `reach2` along u and v and that can be
+    /// told at once: what [`Texture::color`] finds of every footprint in there.
     #[inline]
-    pub fn color_within(&self, uv: DVec2, reach: DVec2) -> Option<Color> {
+    pub fn color_within(&self, uv: DVec2, reach2: DVec2) -> Option<Color> {
         match self {
-            Texture::Checker(checker) => checker.color_within(uv, reach),
+            Texture::Checker(checker) => checker.color_within(uv, reach2),
             _ => None,
         }
     }
