@@ -20,11 +20,7 @@ impl World {
     pub fn leaving(&self, surface: &Surface, tolerance: f64, dir: DVec3) -> Ray {
         let ray = Ray::leaving(surface.p, tolerance, surface.ng, dir);
         let inwards = dir.dot(surface.ng) < 0.0 && self.instances[surface.instance as usize].rank != 0;
-        if inwards {
-            Ray { origin: self.start_within(surface, tolerance, ray.origin), dir }
-        } else {
-            ray
-        }
+        if inwards { Ray { origin: self.start_within(surface, tolerance, ray.origin), dir } } else { ray }
     }
 
     #[inline(never)]
