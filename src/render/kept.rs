@@ -98,7 +98,7 @@ impl Form {
             aovs: Aov::ALL.iter().filter(|a| options.aovs.contains(a)).map(|a| a.name().to_owned()).collect(),
             of,
             by,
-            told: !options.untold,
+            told: options.tells(plan.passes),
             assets,
             exposure_ev: shown.0,
             png_bits: shown.1,
@@ -141,7 +141,7 @@ impl Form {
 
     fn layers(&self) -> Layers {
         let options = Options { aovs: self.aovs(), untold: !self.told, ..Options::default() };
-        // What is kept may be added to, whatever its passes.
+        // Whether the error is told has been decided.
         let wants = options.wants(self.width, self.height, u32::MAX);
         let [first, end] = self.passes;
         let divided = self.of > 1 && self.by == By::Passes;

@@ -160,19 +160,23 @@ impl Options {
         }
     }
 
+    /// Whether statistics of the error are kept of so many passes: one tells nothing of it, unless those of other
+    /// shards are added to it later.
+    pub(super) fn tells(&self, passes: u32) -> bool {
+        !self.untold && (passes > 1 || self.shards.is_some())
+    }
+
     /// Of an image of this size, and so many passes.
     pub(super) fn wants(&self, width: u32, height: u32, passes: u32) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));
         let part = self.crop.map_or((width, height), |crop| (crop.width(), crop.height()));
-        // One pass tells nothing of its error, unless others are added to it later.
-        let told = !self.untold && (passes > 1 || self.shards.is_some() || self.checkpoint.is_some());
         Wants {
             first_hit: any(&[Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Position, Aov::ObjectId]),
             split: any(&[Aov::Direct, Aov::Reflection, Aov::Refraction, Aov::Caustic, Aov::Indirect]),
             variance: any(&[Aov::Variance, Aov::Noise]),
             bias: any(&[Aov::Bias]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
-            probes: told.then(|| Probes::of(part.0, part.1)),
+            probes: self.tells(passes).then(|| Probes::of(part.0, part.1)),
         }
     }
 
