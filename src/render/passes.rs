@@ -44,14 +44,12 @@ pub(super) fn trace(
 ) -> Result<Traced, RenderError> {
     let Prepared { plan, world, stages, .. } = ready;
     let resumed = keeper.resume(progress)?;
-    let mut stop = Stop::new(plan, options, &keeper.film());
-    let (mut film, begin, mut done) = match resumed {
-        Some(resumed) => {
-            resumed.part.stop.iter().for_each(|state| stop.resume(state));
-            (resumed.film, resumed.begin, resumed.done)
-        }
-        None => (keeper.film(), plan.first_pass, 0),
+    let (mut film, begin, mut done, part) = match resumed {
+        Some(resumed) => (resumed.film, resumed.begin, resumed.done, Some(resumed.part)),
+        None => (keeper.film(), plan.first_pass, 0, None),
     };
+    let mut stop = Stop::new(plan, options, &film);
+    part.and_then(|part| part.stop).iter().for_each(|state| stop.resume(state));
     let several = stages.one_map() && !plan.until.is_any() && !progress.looks_on();
     let batch = if several { BATCH } else { 1 };
     let mut steps = Steps::new(stretches(options, plan), batch, begin);
