@@ -86,3 +86,31 @@ fn in_uv(coordinates: &Coordinates, steps: [DVec3; 2]) -> [DVec2; 2] {
     };
     [in_uv(steps[0]), in_uv(steps[1])]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::sights::tests::few_objects;
+    use crate::math::Ray;
+    use crate::math::random::{Counter, Stage};
+
+    /// No footprint reaches farther along u or v than its bound, on every shape and under every angle.
+    #[test]
+    fn footprints_end_within_their_reach() {
+        let (world, mut random) = (few_objects(), Counter::new(3, Stage::Test, 0));
+        let mut known = 0;
+        for _ in 0..5_000 {
+            let aim = DVec3::from([(); 3].map(|()| 4.0 * random.value() - 2.0));
+            let ray = Ray { origin: world.camera.eye, dir: (aim - world.camera.eye).normalize() };
+            let Some(hit) = world.nearest(&ray, f64::INFINITY) else { continue };
+            let (surface, cone) = (world.surface(&ray, &hit), Cone { width: 0.01, spread: random.value() });
+            let coordinates = world.coordinates(&surface);
+            let reach2 = squared_reach(&surface, &coordinates, -ray.dir, &cone);
+            let [a, b] = texture_point(&surface, &coordinates, 1.0, -ray.dir, &cone).duv;
+            let extent2 = a * a + b * b;
+            assert!(!extent2.cmpgt(reach2).any(), "{extent2} beyond {reach2}: {surface:?}");
+            known += u32::from(reach2.is_finite());
+        }
+        assert!(known > 1_000, "{known}");
+    }
+}

@@ -144,15 +144,13 @@ impl World {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::math::random::{Counter, Stage};
 
-    /// The same answers as the tree's, for rays all over a scene of every shape, lit from within it: on their way to
-    /// the lamp, and on in any direction from what they have met, inside and outside of it.
-    #[test]
-    fn what_lies_around_is_what_the_tree_finds() {
-        let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 8, height: 8),
+    /// A world of every shape, with a lamp in its midst. No two surfaces coincide.
+    pub fn few_objects() -> World {
+        let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 32, height: 24),
             materials: { "m": (diffuse: 0.5), "glass": (transmission: 1) },
             lights: { "lamp": point(position: (-1, 2, 1), intensity: 1) },
             objects: [(shape: quad(size: (9, 9)), material: "m"), (shape: sphere(radius: 0.5, center: (-0.6, 0.5, 0)), material: "glass"),
@@ -164,7 +162,14 @@ mod tests {
         let scene =
             crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
         let plan = crate::plan::Plan::new(&scene, &Default::default()).expect("nothing is overridden");
-        let world = crate::build::build(&scene, &plan).expect("it can be built").world;
+        crate::build::build(&scene, &plan).expect("it can be built").world
+    }
+
+    /// The same answers as the tree's, for rays all over a scene of every shape, lit from within it: on their way to
+    /// the lamp, and on in any direction from what they have met, inside and outside of it.
+    #[test]
+    fn what_lies_around_is_what_the_tree_finds() {
+        let world = few_objects();
         let EmitterKind::Point { position, .. } = world.emitters[0].kind else { unreachable!() };
         let mut random = Counter::new(8, Stage::Test, 0);
         let (mut met, mut hidden, mut on, mut within) = (0, 0, 0, 0);

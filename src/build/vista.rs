@@ -169,18 +169,7 @@ mod tests {
     /// The same answers as the tree's, for rays all over a picture of every shape.
     #[test]
     fn the_eye_sees_what_the_tree_finds() {
-        let text = r#"(camera: (eye: (0.3, 1.5, 4), target: (0, 0.4, 0)), image: (width: 32, height: 24),
-            materials: { "m": (diffuse: 0.5), "glass": (transmission: 1) },
-            objects: [(shape: quad(size: (9, 9)), material: "m"), (shape: sphere(radius: 0.5, center: (-0.6, 0.5, 0)), material: "glass"),
-                (shape: box(size: (1, 1, 1), center: (0, 0.5, 0)), material: "m", transform: [rotate(axis: (0, 1, 0), deg: 30), translate((1.4, 0, -1))]),
-                (shape: cone(radius: 0.4, height: 1.2), material: "m", transform: [translate((0.6, 0, 0.4))]),
-                (shape: polyhedron(kind: icosahedron, radius: 0.3), material: "glass", transform: [translate((-1, 0.5, 1))]),
-                (shape: disk(radius: 0.7), material: "m", transform: [rotate(axis: (1, 0, 0), deg: 70), translate((0, 1.6, -1))])])"#;
-        let format = crate::description::Format::Ron;
-        let scene =
-            crate::description::load_str(text, format, std::path::Path::new(""), &[]).expect("valid").scene;
-        let plan = crate::plan::Plan::new(&scene, &Default::default()).expect("nothing is overridden");
-        let world = crate::build::build(&scene, &plan).expect("it can be built").world;
+        let world = crate::build::sights::tests::few_objects();
         assert!(world.vista.is_some());
         let mut random = Counter::new(8, Stage::Test, 0);
         let mut met = [0; 6];

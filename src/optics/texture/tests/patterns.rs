@@ -39,6 +39,24 @@ fn filtered_checkers_and_bricks_are_the_mean_over_the_footprint() {
     }
 }
 
+/// What is told at once of a reach is what every footprint within it sees.
+#[test]
+fn a_colour_that_is_told_at_once_is_that_of_every_footprint() {
+    let (mut values, mut told) = (values(11), 0);
+    let texture = Texture::Checker(Checker::new(black_white(), DVec2::new(8.0, 3.0)));
+    for _ in 0..4_000 {
+        let size = 0.3 * libm::exp2(-6.0 * values.value());
+        let duv = [vector(&mut values), vector(&mut values)].map(|d| d.truncate() * size);
+        let at = TexturePoint { duv, ..TexturePoint::at(vector(&mut values).truncate() * 3.0, DVec3::ZERO) };
+        let half = at.half_extent();
+        if let Some(color) = texture.color_within(at.uv, half * half * (1.0 + 1e-9)) {
+            assert_eq!(texture.color(&at), color, "{at:?}");
+            told += 1;
+        }
+    }
+    assert!((1_000..3_900).contains(&told), "{told}");
+}
+
 #[test]
 fn far_patterns_are_their_mean() {
     for texture in [
