@@ -5,12 +5,12 @@
 //! map of several would be written in another order on every run: the whole provenance is the
 //! JSON text `terrarium`, and `colorInteropID` names the colour space.
 
+use super::parts::{self, Part, Values};
 use super::{CameraView, Image, OutputError, Provenance, Written, camera_view::Matrix};
+use exr::meta::attribute::{Chromaticities, Matrix4x4};
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, LineOrder, SmallVec, Text, Vec2, WritableImage,
+    AttributeValue, Compression, ImageAttributes, IntegerBounds, LayerAttributes, Text, Vec2,
 };
-use exr::{image::Blocks, image::Encoding, meta::attribute::Chromaticities, meta::attribute::Matrix4x4};
 use std::io::{Seek, Write};
 
 /// The name of the attribute that holds the provenance as JSON.
@@ -32,8 +32,8 @@ pub fn write(
     image: &Image,
     provenance: &Provenance,
 ) -> Result<Written, OutputError> {
-    let (layer, written) = picture(image, provenance)?;
-    save(sink, image, [layer])?;
+    let (part, written) = picture(image, provenance)?;
+    save(sink, image, &[part])?;
     Ok(written)
 }
 
@@ -41,26 +41,28 @@ pub fn write(
 pub(super) fn save<const N: usize>(
     sink: impl Write + Seek,
     image: &Image,
-    parts: [Layer<AnyChannels<FlatSamples>>; N],
+    parts: &[Part; N],
 ) -> Result<(), OutputError> {
     let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions(shown(image)));
     attributes.chromaticities = Some(REC_709);
     attributes.other.insert(text("colorInteropID"), AttributeValue::Text(text("lin_rec709_scene")));
-    let file = exr::image::Image::from_layers(attributes, SmallVec::from_iter(parts));
-    let writer = file.write();
-    if rayon::current_num_threads() == 1 {
-        writer.non_parallel().to_buffered(sink)?;
-    } else {
-        writer.to_buffered(sink)?;
-    }
-    Ok(())
+    Ok(parts::write(sink, &attributes, parts)?)
 }
 
 /// The part of the file that shows the picture.
-pub(super) fn picture(
-    image: &Image,
+pub(super) fn picture<'a>(
+    image: &'a Image,
     provenance: &Provenance,
-) -> Result<(Layer<AnyChannels<FlatSamples>>, Written), OutputError> {
+) -> Result<(Part<'a>, Written), OutputError> {
+    picture_with(image, provenance, |_| {})
+}
+
+/// The same, with more said of it.
+pub(super) fn picture_with<'a>(
+    image: &'a Image,
+    provenance: &Provenance,
+    say: impl FnOnce(&mut LayerAttributes),
+) -> Result<(Part<'a>, Written), OutputError> {
     if let Some(defect) = image.defect() {
         return Err(OutputError::Invalid(defect));
     }
@@ -69,24 +71,20 @@ pub(super) fn picture(
         return Err(OutputError::NotSupported("an EXR image wider or higher than 2147483647".to_string()));
     }
     let mut written = Written::default();
-    let mut channels = SmallVec::new();
+    let mut channels = Vec::new();
     for layer in &image.layers {
         for (channel, values) in &layer.channels {
-            let values = finite(values, &mut written.non_finite);
-            channels.push(AnyChannel::new(spelling(&layer.name, channel).as_str(), FlatSamples::F32(values)));
+            written.non_finite += values.iter().filter(|value| !value.is_finite()).count() as u64;
+            channels.push((text(&spelling(&layer.name, channel)), Values::F32(values)));
         }
     }
-    let encoding = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
-    let size = Vec2(image.width, image.height);
     let mut attributes = attributes(&provenance.about(image));
     if let Some(within) = image.within {
         attributes.layer_position = Vec2(within.x as i32, within.y as i32);
     }
-    Ok((Layer::new(size, attributes, encoding, AnyChannels::sort(channels)), written))
+    say(&mut attributes);
+    let size = Vec2(image.width, image.height);
+    Ok((Part::new(size, Compression::ZIP16, attributes, channels), written))
 }
 
 /// The size of the picture that the image is, or is a part of.
@@ -102,18 +100,6 @@ pub fn spelling(layer: &str, channel: &str) -> String {
         "position" => format!("P.{channel}"),
         _ => format!("{layer}.{channel}"),
     }
-}
-
-fn finite(values: &[f32], non_finite: &mut u64) -> Vec<f32> {
-    let mut replace = |value: &f32| {
-        if value.is_finite() {
-            *value
-        } else {
-            *non_finite += 1;
-            0.0
-        }
-    };
-    values.iter().map(&mut replace).collect()
 }
 
 fn attributes(provenance: &Provenance) -> LayerAttributes {

@@ -10,6 +10,7 @@ mod display;
 pub mod exr;
 mod image;
 pub mod partial;
+mod parts;
 pub mod png;
 mod provenance;
 pub mod srgb;

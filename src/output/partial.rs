@@ -5,18 +5,15 @@
 //! row, the last row filled up with zeros. They are not compressed: most of their bits are chance. The picture's
 //! attribute `terrariumChecksum` is that of the provenance, as [`checksum`] makes it of the text's bytes.
 
-use super::exr::{ATTRIBUTE, picture, save, text};
+use super::exr::{ATTRIBUTE, picture_with, save, text};
+use super::parts::{Part, Values};
 use super::{Image, OutputError, Provenance};
 use crate::math::random::combine;
 use exr::block::chunk::CompressedBlock;
-use exr::image::{Blocks, Encoding};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Layer, LayerAttributes, LineOrder,
-    SmallVec, Vec2,
-};
+use exr::prelude::{AttributeValue, Compression, LayerAttributes, Vec2};
 use rayon::prelude::*;
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 
@@ -53,23 +50,23 @@ pub fn write(
     provenance: &Provenance,
     mut words: Vec<u32>,
 ) -> Result<(), OutputError> {
-    let (mut first, _) = picture(image, provenance)?;
-    first.attributes.layer_name = Some(text(PICTURE));
-    let own = &mut first.attributes.other;
-    if let Some(AttributeValue::Text(said)) = own.get(&text(ATTRIBUTE)) {
-        let seal = AttributeValue::Text(text(&seal(&said.to_string())));
-        own.insert(text(SEAL), seal);
-    }
+    let (first, _) = picture_with(image, provenance, |attributes| {
+        attributes.layer_name = Some(text(PICTURE));
+        let own = &mut attributes.other;
+        if let Some(AttributeValue::Text(said)) = own.get(&text(ATTRIBUTE)) {
+            let seal = AttributeValue::Text(text(&seal(&said.to_string())));
+            own.insert(text(SEAL), seal);
+        }
+    })?;
     let rows = words.len().div_ceil(ROW).max(1);
     words.resize(rows * ROW, 0);
-    let encoding = Encoding {
-        compression: Compression::Uncompressed,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
-    let channels = SmallVec::from_iter([AnyChannel::new("word", FlatSamples::U32(words))]);
-    let sums = Layer::new((ROW, rows), LayerAttributes::named(SUMS), encoding, AnyChannels::sort(channels));
-    save(sink, image, [first, sums])
+    let sums = Part::new(
+        Vec2(ROW, rows),
+        Compression::Uncompressed,
+        LayerAttributes::named(SUMS),
+        vec![(text("word"), Values::U32(&words))],
+    );
+    save(sink, image, &[first, sums])
 }
 
 /// The provenance of a partial image, and its sums with the zeros at their end. Its picture is passed over.

@@ -166,6 +166,11 @@ impl Options {
         !self.untold && (passes > 1 || self.shards.is_some())
     }
 
+    /// Of its layers in single precision, up to three channels each, and of a 16-bit PNG before it is compressed.
+    pub(super) fn image_bytes_per_pixel(&self) -> u64 {
+        4 * 3 * (1 + self.aovs.len() as u64) + 2 * 3
+    }
+
     /// Of an image of this size, and so many passes.
     pub(super) fn wants(&self, width: u32, height: u32, passes: u32) -> Wants {
         let any = |list: &[Aov]| list.iter().any(|aov| self.aovs.contains(aov));

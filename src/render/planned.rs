@@ -71,7 +71,7 @@ impl Planned {
                 wants,
                 cost.samples as f64 / (pixels * u64::from(passes)).max(1) as f64,
             ),
-            image: 2 * 4 * pixels * (3 + 3 * options.aovs.len() as u64),
+            image: options.image_bytes_per_pixel() * pixels,
         };
         let held = memory::held();
         let mut prices = cost.bill;

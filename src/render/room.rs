@@ -8,12 +8,11 @@ use crate::trace::{self, Tile};
 /// The side of the tile whose memory is measured.
 const SIDE: u32 = 64;
 
-/// Bytes of sums a pixel, and of layers: in single precision, finished and as they are written.
+/// Bytes a pixel of sums, and of the finished image.
 fn bytes_per_pixel(options: &Options, passes: u32, width: u32, height: u32) -> [u64; 2] {
     let layers = trace::layers(&options.wants(width, height, passes));
     let tile = Tile::new(0, 0, SIDE, SIDE, layers).memory_bytes() as u64;
-    let values = 3 + 3 * options.aovs.len() as u64;
-    [tile.div_ceil(u64::from(SIDE * SIDE)), 2 * size_of::<f32>() as u64 * values]
+    [tile.div_ceil(u64::from(SIDE * SIDE)), options.image_bytes_per_pixel()]
 }
 
 /// Refuses an image that takes more than `options.memory`, or than the machine has.
