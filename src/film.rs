@@ -5,6 +5,7 @@ mod brightness;
 mod kept;
 mod window;
 
+use crate::math::DVec3;
 use crate::trace::{LUMINANCE, Layer, Layers, Measured, Probe, Resting, Tile};
 pub use accuracy::{Accuracy, Part, Rates};
 use brightness::Brightness;
@@ -60,17 +61,29 @@ impl Film {
             _ => 3,
         };
         let mut channels = vec![vec![0.0; n]; count];
-        let most = self.tiles.iter().flat_map(Tile::samples_per_pass).fold(1.0, f64::max);
+        let most = match layer {
+            Layer::Edges => self.tiles.iter().flat_map(Tile::samples_per_pass).fold(1.0, f64::max),
+            _ => 1.0,
+        };
         for tile in &self.tiles {
-            for (x, y) in tile.pixels() {
-                let at = self.window.index(x, y);
-                let value = tile.value(x, y, layer, most);
-                for (channel, v) in channels.iter_mut().zip(value.to_array()) {
-                    channel[at] = v as f32;
-                }
+            match layer {
+                Layer::Radiance => self.put(tile, &mut channels, |i| tile.mean(i)),
+                _ => self.put(tile, &mut channels, |i| tile.value(i, layer, most)),
             }
         }
         channels
+    }
+
+    /// Puts the values of a tile's pixels into channels; they are told by the pixel's number in the tile.
+    fn put(&self, tile: &Tile, channels: &mut [Vec<f32>], value: impl Fn(usize) -> DVec3) {
+        let width = tile.width as usize;
+        for (line, y) in (tile.y..tile.y + tile.height).enumerate() {
+            let at = self.window.index(tile.x, y);
+            for column in 0..width {
+                let values = value(line * width + column).to_array();
+                channels.iter_mut().zip(values).for_each(|(channel, v)| channel[at + column] = v as f32);
+            }
+        }
     }
 
     /// Samples over all pixels and passes.
@@ -112,9 +125,8 @@ impl Film {
     fn brightness(&self) -> Brightness {
         let mut values = vec![0.0; self.window.pixels()];
         for tile in &self.tiles {
-            for (x, y) in tile.pixels() {
-                let value = tile.value(x, y, Layer::Radiance, 1.0).dot(LUMINANCE);
-                values[self.window.index(x, y)] = value as f32;
+            for (i, (x, y)) in tile.pixels().enumerate() {
+                values[self.window.index(x, y)] = tile.mean(i).dot(LUMINANCE) as f32;
             }
         }
         Brightness { window: self.window, values }

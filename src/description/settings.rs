@@ -53,7 +53,8 @@ pub enum Antialiasing {
     /// antialiasing: adaptive(threshold: 0.05, depth: 3)
     /// ```
     Adaptive {
-        /// Relative contrast, in any channel, above which a cell is divided: (max − min) / (max + min + 2·floor); 0 to 1.
+        /// A cell is divided where its relative contrast, (max − min) / (max + min + 2·floor) in any channel, times
+        /// its share of the pixel is above this; 0 to 1.
         #[serde(default = "default_threshold")]
         threshold: f64,
         /// Subdivisions at most: a pixel is never divided finer than 2^depth × 2^depth; 1 to 8.

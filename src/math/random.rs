@@ -75,10 +75,26 @@ pub struct Sequence {
     index: u32,
 }
 
+/// The sequences of a stage's items.
+#[derive(Clone, Copy, Debug)]
+pub struct Items(u64);
+
+impl Items {
+    #[inline]
+    pub fn of(seed: u64, stage: Stage) -> Items {
+        Items(combine(mix(seed), stage as u64))
+    }
+
+    #[inline]
+    pub fn sequence(&self, item: u64, index: u32) -> Sequence {
+        Sequence { key: combine(self.0, item), index }
+    }
+}
+
 impl Sequence {
     #[inline]
     pub fn new(seed: u64, stage: Stage, item: u64, index: u32) -> Sequence {
-        Sequence { key: combine(combine(mix(seed), stage as u64), item), index }
+        Items::of(seed, stage).sequence(item, index)
     }
 
     /// Another sample of the same sequence.

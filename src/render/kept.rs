@@ -144,9 +144,10 @@ impl Form {
         // Whether the error is told has been decided.
         let wants = options.wants(self.width, self.height, u32::MAX);
         let [first, end] = self.passes;
+        let one_pass = end - first == 1;
         let divided = self.of > 1 && self.by == By::Passes;
         let parts = if divided { Parts::Of { first, passes: end - first } } else { Parts::Growing };
-        Layers { parts, ..trace::layers(&wants) }
+        Layers { parts, one_pass, ..trace::layers(&wants) }
     }
 
     /// An empty film of some of the shards.

@@ -182,6 +182,7 @@ impl Options {
             bias: any(&[Aov::Bias]),
             photons: any(&[Aov::Photons, Aov::PhotonDensity]),
             probes: self.tells(passes).then(|| Probes::of(part.0, part.1)),
+            one_pass: passes == 1,
         }
     }
 

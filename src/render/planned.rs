@@ -104,7 +104,7 @@ fn kept_by_tiles(plan: &Plan, options: &Options, wants: &Wants, samples_per_pixe
     if !matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
         return 0;
     }
-    let whole = wants.first_hit || wants.split || wants.photons;
+    let whole = wants.whole_samples();
     let each = size_of::<Color>() + size_of::<(u64, u32)>() + if whole { size_of::<Sample>() } else { 0 };
     let pixels = f64::from(options.tile) * f64::from(options.tile);
     let bytes = 3.0 * BUSY * samples_per_pixel * pixels * each as f64;

@@ -143,7 +143,7 @@ pub fn replay(tracer: &Tracer, place: Place) -> (DVec3, Vec<SampleRecord>) {
     let mut tile = Tile::new(place.x, place.y, 1, 1, layers(&tracer.wants));
     antialias::pass(tracer, place.pass, &mut tile, &mut Scratch::new(tracer), &mut tally);
     let samples = tally.recorder.map(|recorder| recorder.into_samples()).unwrap_or_default();
-    (tile.value(place.x, place.y, Layer::Radiance, 1.0), samples)
+    (tile.mean(0), samples)
 }
 
 /// The layers that a film needs for what is wanted of each sample.
@@ -156,5 +156,6 @@ pub fn layers(wants: &Wants) -> Layers {
         bias: wants.bias,
         probes: wants.probes,
         parts: Parts::Growing,
+        one_pass: wants.one_pass,
     }
 }

@@ -17,9 +17,17 @@ pub struct Wants {
     pub bias: bool,
     /// Pixels that the picture's error is estimated from.
     pub probes: Option<Probes>,
+    /// There will be one pass.
+    pub one_pass: bool,
 }
 
 impl Wants {
+    /// Whether more than the radiance is kept of samples that several pixels share. A probe's parts are, and any
+    /// may be a probe's.
+    pub fn whole_samples(&self) -> bool {
+        !self.radiance_alone() || self.probes.is_some()
+    }
+
     /// Whether a sample's radiance is all that a pixel keeps of it.
     pub(super) fn radiance_alone(&self) -> bool {
         !(self.first_hit || self.split || self.photons)

@@ -4,11 +4,13 @@
 //! are exact: the size of the tiles, the number of threads, and which passes were summed up where
 //! change nothing.
 
+mod radiance;
 mod sums;
 
 use super::probe::LUMINANCE;
 use super::{Parts, Probe, Probes};
 use crate::math::{DVec3, Exact, Vec3};
+use radiance::Radiance;
 
 /// A pixel's value in one pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,6 +48,8 @@ pub struct Layers {
     pub bias: bool,
     pub probes: Option<Probes>,
     pub parts: Parts,
+    /// Second passes are not to be expected.
+    pub one_pass: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -117,7 +121,7 @@ pub struct Tile {
     /// The pass that is being added.
     pass: u32,
     parts: Parts,
-    radiance: Vec<Exact>,
+    radiance: Radiance,
     passes: Vec<u32>,
     samples: Vec<u32>,
     split: Vec<SplitSums>,
@@ -156,7 +160,7 @@ impl Tile {
             next: 0,
             pass: 0,
             parts: layers.parts,
-            radiance: vec![Exact::default(); n],
+            radiance: Radiance::new(n, layers.one_pass),
             passes: vec![0; n],
             samples: vec![0; n],
             split: vec![SplitSums::default(); if_kept(layers.split)],
@@ -168,7 +172,8 @@ impl Tile {
             bias: vec![(Exact::default(), 0); if_kept(layers.bias)],
             probes: vec![Probe::default(); layers.probes.map_or(0, |placed| squares(placed) as usize)],
             placed: layers.probes,
-            layered: Layers { probes: None, parts: Parts::Growing, ..layers } != Layers::default(),
+            layered: Layers { probes: None, parts: Parts::Growing, one_pass: false, ..layers }
+                != Layers::default(),
         }
     }
 
@@ -207,14 +212,14 @@ impl Tile {
         let off = if before == 0.0 {
             DVec3::ZERO
         } else {
-            value.radiance - self.radiance[i].about() * (1.0 / before)
+            value.radiance - self.radiance.about(i) * (1.0 / before)
         };
         let square = off * off * (before / (before + 1.0));
         if let (Some(spread), Some(brightest)) = (self.spread.get_mut(i), self.brightest.get_mut(i)) {
             *spread += square.as_vec3();
             *brightest = (*brightest).max(Brightest::of(value.radiance.dot(LUMINANCE)));
         }
-        self.radiance[i].add(value.radiance);
+        self.radiance.add(i, value.radiance, before == 0.0);
         self.passes[i] += 1;
         self.samples[i] = self.samples[i].saturating_add(value.samples);
         if let Some(placed) = self.placed.filter(|_| probe) {
@@ -299,7 +304,8 @@ impl Tile {
     }
 
     pub fn memory_bytes(&self) -> usize {
-        self.radiance.len() * (size_of::<Exact>() + 2 * size_of::<u32>())
+        self.radiance.memory_bytes()
+            + self.passes.len() * 2 * size_of::<u32>()
             + self.split.len() * size_of::<SplitSums>()
             + self.first.len() * size_of::<FirstHitSums>()
             + self.squares.len() * size_of::<DVec3>()
@@ -323,7 +329,7 @@ impl Tile {
     pub fn measured(&self) -> impl Iterator<Item = Measured> {
         let of = |(i, (squares, brightest)): (usize, (&Vec3, &Brightest))| {
             let passes = self.passes[i];
-            let sum = self.radiance[i].value();
+            let sum = self.radiance.sum(i);
             let mean = sum / f64::from(passes);
             let others = (sum.dot(LUMINANCE) - brightest.luminance()) / f64::from(passes - 1);
             let variance = squares.as_dvec3() / f64::from(passes - 1);
@@ -333,16 +339,21 @@ impl Tile {
         self.spread.iter().zip(&self.brightest).enumerate().filter(|(i, _)| self.passes[*i] > 1).map(of)
     }
 
-    /// The value of a layer at a pixel given in image coordinates; `most` is the largest number of
+    /// The mean radiance of the pixel with this number, row by row.
+    #[inline]
+    pub fn mean(&self, i: usize) -> DVec3 {
+        self.radiance.sum(i) / f64::from(self.passes[i].max(1))
+    }
+
+    /// The value of a layer at the pixel with this number, row by row; `most` is the largest number of
     /// samples a pixel and pass in the image.
-    pub fn value(&self, x: u32, y: u32, layer: Layer, most: f64) -> DVec3 {
-        let i = self.index(x, y);
+    pub fn value(&self, i: usize, layer: Layer, most: f64) -> DVec3 {
         let passes = f64::from(self.passes[i].max(1));
         let first = || self.first.get(i).copied().unwrap_or_default();
         let split = || self.split.get(i).copied().unwrap_or_default();
         let photons = || self.photons.get(i).copied().unwrap_or_default();
         match layer {
-            Layer::Radiance => self.radiance[i].value() / passes,
+            Layer::Radiance => self.mean(i),
             Layer::Direct => split().direct.value() / passes,
             Layer::Reflection => split().reflection.value() / passes,
             Layer::Refraction => split().refraction.value() / passes,
@@ -354,7 +365,7 @@ impl Tile {
                 let squares = self.squares.get(i).copied().unwrap_or_default();
                 squares / (passes * (passes - 1.0).max(1.0))
             }
-            Layer::Noise => self.value(x, y, Layer::Variance, most).map(f64::sqrt),
+            Layer::Noise => self.value(i, Layer::Variance, most).map(f64::sqrt),
             Layer::Bias => {
                 let (sum, looked) = self.bias.get(i).copied().unwrap_or_default();
                 sum.value() / f64::from(looked.max(1))

@@ -44,6 +44,25 @@ fn adaptive_is_as_good_as_a_grid_for_fewer_samples() {
     assert!(progressive < three, "{progressive}");
 }
 
+/// A cell is divided for its contrast times its share of the pixel, so that the threshold tells the quality and the
+/// depth is a bound: contrast is at most 1, and no cell of a 64th of a pixel comes above a threshold of 0.1.
+#[test]
+fn the_depth_is_a_bound_and_not_every_edges() {
+    let truth = shot(scene("grid(32)")).render();
+    let of = |antialiasing: &str| {
+        let picture = shot(scene(antialiasing)).render();
+        (rms(&picture, &truth), picture.rendered.stats.rays.camera as f64 / (64.0 * 48.0), picture.bits())
+    };
+    let [three, five] = [3, 5].map(|depth| of(&format!("adaptive(threshold: 0.1, depth: {depth})")));
+    assert!(three.2 == five.2);
+    let grid = of("grid(3)");
+    println!("rms {} of {} samples a pixel, {} of 9", five.0, five.1, grid.0);
+    assert!(five.0 < 0.6 * grid.0 && five.1 < 7.0, "{} of {}; {}", five.0, five.1, grid.0);
+    // And the threshold gives what it takes.
+    let fine = of("adaptive(threshold: 0.01, depth: 5)");
+    assert!(fine.0 < 0.25 * five.0 && fine.1 < 6.0 * five.1, "{} of {}", fine.0, fine.1);
+}
+
 /// Samples are drawn where there are edges, and nowhere else.
 #[test]
 fn the_edges_layer_is_dark_away_from_edges() {

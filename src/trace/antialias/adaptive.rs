@@ -6,16 +6,22 @@
 //! on relative contrast, (max − min) / (max + min + 2·floor) in any channel, the floor a hundredth of the
 //! scene's middling luminance, so that neither exposure nor the height of an edge matters.
 //!
+//! What a cell can be wrong by is its contrast times its share of the pixel, and dividing it costs the same
+//! whatever its size: it is divided where that product is above the threshold, so that every sample is spent
+//! where it takes most of the error away. Each level of division asks for four times the contrast.
+//!
 //! Corners lie on a lattice of 2^depth steps a pixel and are traced once a tile, whichever cells and
 //! pixels share them; the centres of the pixels around a tile are traced by it as well. Every value is a
 //! function of its lattice point and the pass alone.
 
+mod contrast;
+
 use super::Average;
-use crate::math::random::{Sequence, Stage};
-use crate::math::{Color, DVec2, Place};
+use crate::math::random::{Items, Stage};
+use crate::math::{Color, DVec2, DVec3, Place};
 use crate::optics::Camera;
-use crate::trace::Tile;
-use crate::trace::{Sample, Scratch, Tally, Tracer};
+use crate::trace::{PixelValue, Sample, Scratch, Tally, Tile, Tracer, Wants};
+use contrast::{Limit, Range};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -32,36 +38,64 @@ pub(super) fn pass(
     scratch: &mut Scratch,
     tally: &mut Tally,
 ) {
+    let around = Around::of(tile, &tracer.world.camera);
     let mut lattice = Lattice {
         tracer,
         scratch,
         tally,
         steps: 1 << depth,
         pass,
-        threshold: threshold as f32,
-        floor: FLOOR * tracer.reference_level,
-        radiances: Vec::new(),
+        items: Items::of(tracer.plan.seed, Stage::Film),
+        limit: Limit { threshold: threshold as f32, floor: FLOOR * tracer.reference_level },
+        radiances: Vec::with_capacity(2 * around.pixels()),
         samples: Vec::new(),
         whole: Whole::of(tile),
         finer: HashMap::default(),
+        cells: Vec::new(),
     };
-    let mut is_probe = super::probes(tracer);
-    let uneven = lattice.uneven(tile);
-    for ((x, y), stands_out) in tile.pixels().zip(uneven) {
+    lattice.centres(&around);
+    let uneven = contrast::uneven(&lattice.radiances, around.width as usize, lattice.limit);
+    let (mut is_probe, mut value) = (super::probes(tracer), PixelValue::default());
+    for (x, y) in tile.pixels() {
         let probe = is_probe(x, y);
-        let mut average = Average::of(super::wants(tracer, probe));
-        let size = lattice.steps;
-        let mut used = 0;
-        if stands_out {
-            lattice.cell(x * size, y * size, size, &mut average, &mut used);
+        let centre = around.place(x, y);
+        lattice.cells.clear();
+        let cells = if uneven[centre as usize] {
+            let size = lattice.steps;
+            lattice.cell(x * size, y * size, size)
         } else {
-            used = 1;
-            let centre = lattice.centre(x, y);
-            lattice.add(centre, 1.0, &mut average);
-        }
-        if let Some(value) = average.value(used) {
+            lattice.cells.push((centre, 1.0));
+            1
+        };
+        if lattice.mean(super::wants(tracer, probe), cells, &mut value) {
             tile.add_as(probe, x, y, &value);
         }
+    }
+}
+
+/// The pixels of a tile and those around it that are in the image.
+struct Around {
+    x: u32,
+    y: u32,
+    width: u32,
+    height: u32,
+}
+
+impl Around {
+    fn of(tile: &Tile, camera: &Camera) -> Around {
+        let (x, y) = (tile.x.saturating_sub(1), tile.y.saturating_sub(1));
+        let width = (tile.x + tile.width + 1).min(camera.width) - x;
+        let height = (tile.y + tile.height + 1).min(camera.height) - y;
+        Around { x, y, width, height }
+    }
+
+    fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// The place of the sample in a pixel's centre: these are traced first, row by row.
+    fn place(&self, x: u32, y: u32) -> u32 {
+        (y - self.y) * self.width + x - self.x
     }
 }
 
@@ -72,14 +106,16 @@ struct Lattice<'a> {
     /// Lattice steps a pixel.
     steps: u32,
     pass: u32,
-    threshold: f32,
-    floor: f32,
+    items: Items,
+    limit: Limit,
     /// What has been traced; the tables below hold places in it.
     radiances: Vec<Color>,
     /// The whole samples, where more than their radiance is wanted.
     samples: Vec<Sample>,
     whole: Whole,
     finer: HashMap<u64, u32, BuildHasherDefault<Spread>>,
+    /// What a pixel's value is made of: places, with their weights.
+    cells: Vec<(u32, f64)>,
 }
 
 /// The corners and centres of the tile's pixels and of those around it.
@@ -98,174 +134,122 @@ impl Whole {
         Whole { x: tile.x, y: tile.y, row, places: vec![0; row as usize * rows as usize] }
     }
 
-    /// The slot of a lattice point that is a multiple of half a pixel.
-    fn slot(&mut self, x: u32, y: u32, half: u32) -> Option<&mut u32> {
-        if (x | y) & (half - 1) != 0 {
-            return None;
-        }
-        let (column, line) = (x / half + 1 - 2 * self.x, y / half + 1 - 2 * self.y);
+    /// The slot of a point by its coordinates in halves of a pixel.
+    fn slot(&mut self, x: u32, y: u32) -> Option<&mut u32> {
+        let (column, line) = (x + 1 - 2 * self.x, y + 1 - 2 * self.y);
         self.places.get_mut(line as usize * self.row as usize + column as usize)
     }
 }
 
 impl Lattice<'_> {
-    /// The place of the sample in the centre of a pixel.
-    fn centre(&mut self, x: u32, y: u32) -> u32 {
+    /// Traces all centres.
+    fn centres(&mut self, around: &Around) {
         let half = self.steps / 2;
-        self.point(x * self.steps + half, y * self.steps + half)
+        for y in around.y..around.y + around.height {
+            for x in around.x..around.x + around.width {
+                let place = self.trace(x * self.steps + half, y * self.steps + half);
+                if let Some(slot) = self.whole.slot(2 * x + 1, 2 * y + 1) {
+                    *slot = place + 1;
+                }
+            }
+        }
     }
 
-    /// For each pixel of the tile, whether it and the eight around it differ in their centres.
-    fn uneven(&mut self, tile: &Tile) -> Vec<bool> {
-        let Camera { width, height, .. } = self.tracer.world.camera;
-        let around = |at: u32, length: u32, most: u32| at.saturating_sub(1)..=(at + length).min(most - 1);
-        let (columns, rows) = (around(tile.x, tile.width, width), around(tile.y, tile.height, height));
-        let first = (tile.x - columns.start(), tile.y - rows.start());
-        // Of each pixel and its neighbours in the row; then of three rows together.
-        let ranges: Vec<Vec<Range>> = rows
-            .map(|y| {
-                let row: Vec<Range> = columns
-                    .clone()
-                    .map(|x| {
-                        let centre = self.centre(x, y);
-                        Range::of(self.radiances[centre as usize])
-                    })
-                    .collect();
-                widened(&row, first.0, tile.width)
-            })
-            .collect();
-        let (floor, threshold) = (self.floor, self.threshold);
-        let of = |line: u32, column: usize| {
-            let rows = &ranges[near(line + first.1, ranges.len())];
-            let all = rows.iter().fold(Range::default(), |all, row| all.with(row[column]));
-            all.contrast(floor) > threshold
-        };
-        (0..tile.height)
-            .flat_map(|line| (0..tile.width as usize).map(move |column| (line, column)))
-            .map(|(line, column)| of(line, column))
-            .collect()
-    }
-
-    /// Adds the mean of the cell at (x, y) of `size` lattice steps, weighted by its area. A cell that
-    /// is not divided weighs its centre by a half and its corners by an eighth each.
-    fn cell(&mut self, x: u32, y: u32, size: u32, average: &mut Average, used: &mut u32) {
+    /// Notes what the mean of the cell at (x, y) of `size` lattice steps is made of, weighted by its area, and
+    /// returns of how many cells. One that is not divided weighs its centre by a half and its corners by an
+    /// eighth each.
+    fn cell(&mut self, x: u32, y: u32, size: u32) -> u32 {
         let area = f64::from(size) * f64::from(size);
         let corners =
             [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| self.point(x, y));
         if size == 1 {
-            *used += 1;
-            return corners.iter().for_each(|&c| self.add(c, area / 4.0, average));
+            self.cells.extend(corners.map(|corner| (corner, area / 4.0)));
+            return 1;
         }
         let half = size / 2;
         let centre = self.point(x + half, y + half);
-        if self.differ(&corners, centre) {
-            for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
-                self.cell(x + dx, y + dy, half, average, used);
-            }
-            return;
+        if self.differ(&corners, centre, size) {
+            let quarters = [(0, 0), (half, 0), (0, half), (half, half)];
+            return quarters.into_iter().map(|(dx, dy)| self.cell(x + dx, y + dy, half)).sum();
         }
-        *used += 1;
-        self.add(centre, area / 2.0, average);
-        corners.iter().for_each(|&c| self.add(c, area / 8.0, average));
+        self.cells.push((centre, area / 2.0));
+        self.cells.extend(corners.map(|corner| (corner, area / 8.0)));
+        1
     }
 
-    fn differ(&self, corners: &[u32; 4], centre: u32) -> bool {
+    /// Whether a cell of `size` lattice steps is to be divided.
+    fn differ(&self, corners: &[u32; 4], centre: u32, size: u32) -> bool {
         let of = |place: u32| Range::of(self.radiances[place as usize]);
         let all = corners.iter().fold(of(centre), |all, &corner| all.with(of(corner)));
-        all.contrast(self.floor) > self.threshold
+        let share = (size as f32 / self.steps as f32).powi(2);
+        self.limit.exceeded(all, share)
     }
 
-    /// Adds a sample to a mean, unless it was dropped.
-    fn add(&mut self, place: u32, weight: f64, average: &mut Average) {
-        let radiance = self.radiances[place as usize];
-        if !radiance.is_finite() {
-            return;
+    /// The mean of the noted samples but those that were dropped, of so many cells. Whether any is left.
+    fn mean(&mut self, wants: Wants, cells: u32, value: &mut PixelValue) -> bool {
+        let finite = |&&(place, _): &&(u32, f64)| self.radiances[place as usize].is_finite();
+        let (mut sum, mut all) = (DVec3::ZERO, 0.0);
+        for &(place, weight) in self.cells.iter().filter(finite) {
+            self.tally.note(|recorder| recorder.weigh(place, weight));
+            sum += self.radiances[place as usize].as_dvec3() * weight;
+            all += weight;
         }
-        self.tally.note(|recorder| recorder.weigh(place, weight));
-        match self.samples.get(place as usize) {
-            Some(sample) => average.add(sample, weight),
-            None => average.add_radiance(radiance, weight),
+        if self.samples.is_empty() {
+            value.of_radiance(sum * (1.0 / all), cells);
+            return all > 0.0;
         }
+        let mut average = Average::of(wants);
+        for &(place, weight) in self.cells.iter().filter(finite) {
+            average.add(&self.samples[place as usize], weight);
+        }
+        average.value(cells).map(|mean| *value = mean).is_some()
     }
 
     /// The place of a lattice point's sample, traced when it is first asked for.
     fn point(&mut self, x: u32, y: u32) -> u32 {
-        let key = u64::from(y) << 32 | u64::from(x);
-        let next = self.radiances.len() as u32;
-        if let Some(slot) = self.whole.slot(x, y, self.steps / 2) {
+        let (half, next) = (self.steps / 2, self.radiances.len() as u32);
+        let of_halves = (x | y) & (half - 1) == 0;
+        if let Some(slot) = of_halves.then(|| self.whole.slot(x / half, y / half)).flatten() {
             if *slot != 0 {
                 return *slot - 1;
             }
             *slot = next + 1;
         } else {
-            match self.finer.entry(key) {
+            match self.finer.entry(key(x, y)) {
                 Entry::Occupied(known) => return *known.get(),
                 Entry::Vacant(vacant) => vacant.insert(next),
             };
         }
-        let film = DVec2::new(f64::from(x), f64::from(y)) / f64::from(self.steps);
+        self.trace(x, y)
+    }
+
+    /// The place of a sample that is traced at a lattice point.
+    fn trace(&mut self, x: u32, y: u32) -> u32 {
+        let film = DVec2::new(f64::from(x), f64::from(y)) * (1.0 / f64::from(self.steps));
         // Lattice points of different depths are different items.
-        let item = key ^ u64::from(self.steps) << 58;
-        let sequence = Sequence::new(self.tracer.plan.seed, Stage::Film, item, self.pass);
+        let item = key(x, y) ^ u64::from(self.steps) << 58;
+        let sequence = self.items.sequence(item, self.pass);
         let sample = self.tracer.sample(film, sequence, self.scratch, self.tally);
-        if !sample.is_finite() {
+        let finite = sample.is_finite();
+        if finite {
+            self.tally.health.see(sample.radiance);
+        } else {
             // A point on the right or lower border of the image is the last pixel's.
             let Camera { width, height, .. } = self.tracer.world.camera;
             let of = |at: u32, size: u32| (at / self.steps).min(size - 1);
             let place = Place { x: of(x, width), y: of(y, height), pass: self.pass };
             self.tally.health.non_finite(place);
-        } else {
-            self.tally.health.see(sample.radiance);
         }
-        self.radiances.push(if sample.is_finite() { sample.radiance } else { Color::NAN });
-        let wants = self.tracer.wants;
-        if wants.first_hit || wants.split || wants.photons {
+        self.radiances.push(if finite { sample.radiance } else { Color::NAN });
+        if self.tracer.wants.whole_samples() {
             self.samples.push(*sample);
         }
-        next
+        self.radiances.len() as u32 - 1
     }
 }
 
-/// Places beside `at` among so many, and itself.
-fn near(at: u32, len: usize) -> std::ops::Range<usize> {
-    (at as usize).saturating_sub(1)..(at as usize + 2).min(len)
-}
-
-/// The ranges of `width` places from `first` on, each together with those beside it.
-fn widened(row: &[Range], first: u32, width: u32) -> Vec<Range> {
-    let of = |at: u32| row[near(at, row.len())].iter().fold(Range::default(), |all, range| all.with(*range));
-    (first..first + width).map(of).collect()
-}
-
-/// The least and the greatest of finite radiances, channel by channel.
-#[derive(Clone, Copy)]
-struct Range {
-    lo: Color,
-    hi: Color,
-}
-
-impl Default for Range {
-    fn default() -> Range {
-        Range { lo: Color::INFINITY, hi: Color::ZERO }
-    }
-}
-
-impl Range {
-    fn of(radiance: Color) -> Range {
-        if radiance.is_finite() {
-            Range { lo: radiance, hi: radiance.max(Color::ZERO) }
-        } else {
-            Range::default()
-        }
-    }
-
-    fn with(self, other: Range) -> Range {
-        Range { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
-    }
-
-    fn contrast(&self, floor: f32) -> f32 {
-        ((self.hi - self.lo) / (self.hi + self.lo + 2.0 * floor)).max_element()
-    }
+fn key(x: u32, y: u32) -> u64 {
+    u64::from(y) << 32 | u64::from(x)
 }
 
 /// Lattice coordinates are spread by one multiplication.

@@ -65,13 +65,6 @@ impl Average {
         Average { wants, ..Average::default() }
     }
 
-    /// Adds a sample of which nothing but the radiance is wanted.
-    #[inline]
-    pub fn add_radiance(&mut self, radiance: Color, weight: f64) {
-        self.weight += weight;
-        self.radiance += radiance.as_dvec3() * weight;
-    }
-
     #[inline]
     pub fn add(&mut self, sample: &Sample, weight: f64) {
         let scaled = |v: Color| v.as_dvec3() * weight;

@@ -48,7 +48,7 @@ impl Tile {
         }
         put(&self.passes, i, words);
         put(&self.samples, i, words);
-        put(&self.radiance, i, words);
+        self.radiance.exact(i).put(words);
         put(&self.spread, i, words);
         put(&self.brightest, i, words);
         put(&self.split, i, words);
@@ -66,7 +66,7 @@ impl Tile {
         }
         take(&mut self.passes, i, words)
             && take(&mut self.samples, i, words)
-            && take(&mut self.radiance, i, words)
+            && take(self.radiance.sums(), i, words)
             && take(&mut self.spread, i, words)
             && take(&mut self.brightest, i, words)
             && take(&mut self.split, i, words)
@@ -79,7 +79,7 @@ impl Tile {
     /// How many words [`Tile::put`] appends.
     pub fn words(&self) -> usize {
         let (mut pixel, mut probe) = (Words::default(), Words::default());
-        if !self.radiance.is_empty() {
+        if self.radiance.len() > 0 {
             self.put_pixel(0, &mut pixel);
         }
         if let Some(first) = self.probes.first() {
@@ -116,7 +116,7 @@ impl Tile {
             let off = if mine == 0.0 {
                 DVec3::ZERO
             } else {
-                other.radiance[i].value() / theirs - self.radiance[i].value() / mine
+                other.radiance.sum(i) / theirs - self.radiance.sum(i) / mine
             };
             let between = off * off * (mine * theirs / (mine + theirs));
             if let (Some(squares), Some(more)) = (self.squares.get_mut(i), other.squares.get(i)) {
@@ -147,7 +147,7 @@ impl Tile {
                 bias.0.join(&more.0);
                 bias.1 += more.1;
             }
-            self.radiance[i].join(&other.radiance[i]);
+            self.radiance.sums()[i].join(&other.radiance.exact(i));
             self.passes[i] += other.passes[i];
             self.samples[i] = self.samples[i].saturating_add(other.samples[i]);
         }
