@@ -139,6 +139,8 @@ fn tiles_of(
     let timed = TIMED[usize::from(samples > MILLIONS)];
     film.tiles
         .par_iter_mut()
+        // Apart from each other: what one thread has begun no other takes over.
+        .with_max_len(1)
         .filter_map(|tile| {
             let passes = tile.next.max(step.start)..step.end;
             if passes.is_empty() || waits() {
