@@ -13,7 +13,7 @@ use crate::math::{Color, Ray};
 const SPREAD: f64 = 0.05;
 
 /// A branch from a diffuse surface of at least this weight is always followed.
-pub(super) const WEIGHT: f64 = 0.5;
+pub(super) const WEIGHT: f64 = 0.25;
 
 /// From this bounce on every path may end, however white the scene.
 const LONG: u32 = 8;
