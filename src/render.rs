@@ -118,6 +118,7 @@ fn stages(loaded: &Loaded, options: &Options, progress: &dyn Progress) -> Result
         health::refuse_excesses(&part.counts.health)?;
     }
     let image = image::assemble(&film, &options.aovs);
+    warnings.extend(image::beyond(&image));
     // Passes of a shard are no sample of all.
     let accuracy = if options.shards.is_some() { None } else { film.accuracy() };
     image::found(&mut provenance, &film, passes, &part.counts, accuracy.as_ref());

@@ -6,7 +6,7 @@ use super::meshes::Meshes;
 use super::obj::PartName;
 use super::world::{Geometry, Instance};
 use super::{BuildError, scatter};
-use crate::description::{Object, Scene, Shape as Described, Transform};
+use crate::description::{MAX_INSTANCES, Object, Scene, Shape as Described, Transform};
 use crate::math::{DAffine3, DVec3, Placement};
 use crate::optics::{Cone, Cuboid, Disk, MaterialId, Polyhedron, Quad, Shape, Solid, Sphere};
 use std::collections::HashMap;
@@ -24,9 +24,6 @@ pub(super) struct Placed {
 
 /// Groups within groups at most; the scene's check has refused definitions that contain themselves.
 const MAX_NESTING: u32 = 256;
-
-/// Instances at most: indices are 32 bits, and each takes some 300 bytes.
-const MAX_INSTANCES: usize = 50_000_000;
 
 pub(super) struct Placer<'a> {
     pub scene: &'a Scene,

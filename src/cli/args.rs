@@ -243,7 +243,10 @@ fn passes(text: &str) -> Result<std::ops::Range<u32>, String> {
         Some((first, end)) => number(first)?..number(end)?,
         None => 0..number(text)?,
     };
-    if range.is_empty() || range.end == u32::MAX {
+    if range.end == u32::MAX {
+        return Err(format!("{} passes at most", u32::MAX - 1));
+    }
+    if range.is_empty() {
         return Err("at least one pass is needed".to_owned());
     }
     Ok(range)

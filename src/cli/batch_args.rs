@@ -7,6 +7,7 @@ use clap::Args as ClapArgs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use terrarium::film::Window;
+use terrarium::plan::LONGEST;
 use terrarium::render::{Checkpoint, Shards};
 
 #[derive(Clone, Debug, ClapArgs)]
@@ -54,7 +55,7 @@ fn interval(text: &str) -> Result<Interval, String> {
     match text.trim() {
         "off" => Ok(Interval::Never),
         "auto" => Ok(Interval::Auto),
-        _ => super::args::seconds(text).map(|s| Interval::Every(Duration::from_secs_f64(s.min(1e9)))),
+        _ => super::args::seconds(text).map(|s| Interval::Every(Duration::from_secs_f64(s.min(LONGEST)))),
     }
 }
 

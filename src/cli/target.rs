@@ -30,6 +30,14 @@ pub fn targets(args: &RenderArgs) -> Result<Vec<Target>, Failure> {
     if (shown || stats) && args.progress == ProgressChoice::Openjd {
         return Err(Failure::new(USAGE, "OpenJD's progress goes to standard output, and nothing else can"));
     }
+    let holds_layers =
+        |target: &Target| matches!(target, Target::File(_, Format::Exr) | Target::Stdout(Format::Exr));
+    if !args.work.aov.is_empty() && !targets.iter().any(holds_layers) {
+        return Err(Failure::new(
+            USAGE,
+            "--aov asks for layers, and only EXR files have any: add `-o <name>.exr`",
+        ));
+    }
     Ok(targets)
 }
 

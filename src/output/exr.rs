@@ -84,7 +84,10 @@ pub(super) fn picture_with<'a>(
     }
     say(&mut attributes);
     let size = Vec2(image.width, image.height);
-    Ok((Part::new(size, Compression::ZIP16, attributes, channels), written))
+    // The bytes of a chunk are counted in 31 bits.
+    let line = channels.len() as u64 * 4 * image.width as u64;
+    let compression = if line * 16 < 1 << 31 { Compression::ZIP16 } else { Compression::ZIP1 };
+    Ok((Part::new(size, compression, attributes, channels), written))
 }
 
 /// The size of the picture that the image is, or is a part of.

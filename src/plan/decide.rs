@@ -168,7 +168,7 @@ fn antialiasing(scene: &Scene) -> Decision {
         Antialiasing::Adaptive { threshold, depth } => (
             true,
             format!(
-                "adaptive: corners, divided up to {depth} times where their contrast is above {threshold}"
+                "adaptive: corners, divided up to {depth} times where contrast times share of the pixel is above {threshold}"
             ),
         ),
         Antialiasing::Progressive => {

@@ -22,7 +22,7 @@ pub use overrides::{Overrides, Refused};
 pub use photons::{Kernel, PhotonBudget, PhotonEngine};
 use std::borrow::Cow;
 use std::ops::Range;
-pub use until::{FEWEST, MOST_PASSES, Until};
+pub use until::{FEWEST, LONGEST, MOST_PASSES, Until};
 
 /// What a caller asks for beyond the scene.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -12,6 +12,9 @@ pub struct Until {
     pub error: Option<f64>,
 }
 
+/// What a longer time counts as, in seconds: 30 years, which clocks can add.
+pub const LONGEST: f64 = 1e9;
+
 /// Passes from which on an error can be told.
 pub const FEWEST: u32 = 4;
 

@@ -5,7 +5,7 @@ use super::kept::Counts;
 use crate::build::World;
 use crate::description::Loaded;
 use crate::film::{Accuracy, Film, Window};
-use crate::math::Rare;
+use crate::math::{Exact, Rare};
 use crate::output::{CameraView, Image, Layer as ImageLayer, Provenance, Within};
 use crate::plan::Plan;
 use crate::survey::Survey;
@@ -49,6 +49,17 @@ pub(super) fn assemble(film: &Film, aovs: &[Aov]) -> Image {
         add(aov.name(), channels, layer);
     }
     image
+}
+
+/// A warning of each layer with values that sums cannot hold.
+pub(super) fn beyond(image: &Image) -> Vec<String> {
+    let limit = Exact::LIMIT as f32;
+    let cut = |values: &[f32]| values.iter().filter(|v| v.abs() >= limit).count();
+    let told = |layer: &ImageLayer| {
+        let most = layer.channels.iter().map(|(_, values)| cut(values)).max().unwrap_or(0);
+        (most > 0).then(|| format!("the layer `{}` is cut to {limit:.1e} at {most} pixels", layer.name))
+    };
+    image.layers.iter().filter_map(told).collect()
 }
 
 /// All of it follows from the scene, the seed and the program: no times, no machine.

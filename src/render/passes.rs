@@ -17,6 +17,9 @@ use std::ops::Range;
 const TIMED: [u32; 2] = [61, 251];
 const MILLIONS: u64 = 3_000_000;
 
+/// Of all tiles, by thread, at least.
+const PIECES: usize = 256;
+
 /// Passes that a tile works through before progress is reported.
 const BATCH: u32 = 8;
 
@@ -137,19 +140,19 @@ fn tiles_of(
     let a_pass = if let Antialiasing::Grid(n) = tracer.plan.antialiasing { u64::from(n * n) } else { 1 };
     let samples = film.window.pixels() as u64 * u64::from(step.end - step.start) * a_pass;
     let timed = TIMED[usize::from(samples > MILLIONS)];
+    // A piece that one thread has begun no other takes over: many pieces, but not one for each of millions of tiles.
+    let most = (film.tiles.len() / (PIECES * rayon::current_num_threads())).max(1);
     film.tiles
         .par_iter_mut()
-        // Apart from each other: what one thread has begun no other takes over.
-        .with_max_len(1)
-        .filter_map(|tile| {
+        .with_max_len(most)
+        .fold(Tally::default, |mut sum, tile| {
             let passes = tile.next.max(step.start)..step.end;
-            if passes.is_empty() || waits() {
-                return None;
+            if !passes.is_empty() && !waits() {
+                let count = u64::from(passes.end - passes.start);
+                sum.add(&trace::passes(tracer, passes, tile, timed));
+                progress.advance(count);
             }
-            let count = u64::from(passes.end - passes.start);
-            let tally = trace::passes(tracer, passes, tile, timed);
-            progress.advance(count);
-            Some(tally)
+            sum
         })
         .collect()
 }

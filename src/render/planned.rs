@@ -69,6 +69,7 @@ impl Planned {
                 plan,
                 options,
                 wants,
+                [world.camera.width, world.camera.height],
                 cost.samples as f64 / (pixels * u64::from(passes)).max(1) as f64,
             ),
             image: options.image_bytes_per_pixel() * pixels,
@@ -100,15 +101,25 @@ impl Planned {
 
 /// Adaptive antialiasing keeps what a tile's samples yield, and their places, in storage that doubles as they
 /// come; busy tiles have more of them than others.
-fn kept_by_tiles(plan: &Plan, options: &Options, wants: &Wants, samples_per_pixel: f64) -> u64 {
+fn kept_by_tiles(
+    plan: &Plan,
+    options: &Options,
+    wants: &Wants,
+    [width, height]: [u32; 2],
+    samples_per_pixel: f64,
+) -> u64 {
     if !matches!(plan.antialiasing, Antialiasing::Adaptive { .. }) {
         return 0;
     }
     let whole = wants.whole_samples();
     let each = size_of::<Color>() + size_of::<(u64, u32)>() + if whole { size_of::<Sample>() } else { 0 };
-    let pixels = f64::from(options.tile) * f64::from(options.tile);
-    let bytes = 3.0 * BUSY * samples_per_pixel * pixels * each as f64;
-    rayon::current_num_threads() as u64 * bytes as u64
+    let side = |length: u32| f64::from(options.tile.min(length));
+    let (width, height) = options.crop.map_or((width, height), |crop| (crop.width(), crop.height()));
+    let tiles = (f64::from(width) / side(width)).ceil() * (f64::from(height) / side(height)).ceil();
+    let at_once = tiles.min(rayon::current_num_threads() as f64);
+    // No tile of an image of one is busier than the mean.
+    let busy = BUSY.min(tiles);
+    (3.0 * busy * samples_per_pixel * side(width) * side(height) * each as f64 * at_once) as u64
 }
 
 /// Samples of the busiest tiles over those of the mean.

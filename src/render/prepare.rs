@@ -39,6 +39,7 @@ impl Prepared {
         let plan = Plan::new(&loaded.scene, &options.request())?;
         options.check(&plan, loaded.scene.image.width, loaded.scene.image.height)?;
         room::check(options, plan.passes, loaded.scene.image.width, loaded.scene.image.height)?;
+        room::check_scene(options, &loaded.scene)?;
         clock.lap("plan");
 
         progress.start("build", 1, "scene");

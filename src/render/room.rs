@@ -2,6 +2,8 @@
 //! it, foretold once the scene is.
 
 use super::{Options, Planned, RenderError};
+use crate::build::Instance;
+use crate::description::{Instances, Scene};
 use crate::forecast::memory;
 use crate::trace::{self, Tile};
 
@@ -15,6 +17,24 @@ fn bytes_per_pixel(options: &Options, passes: u32, width: u32, height: u32) -> [
     [tile.div_ceil(u64::from(SIDE * SIDE)), options.image_bytes_per_pixel()]
 }
 
+/// Refuses a scene whose instances alone take more than `options.memory`, or than the machine has.
+pub(super) fn check_scene(options: &Options, scene: &Scene) -> Result<(), RenderError> {
+    let Some(limit) = options.memory.or_else(memory::machine) else { return Ok(()) };
+    let (count, each) = (Instances::of(scene).all(), size_of::<Instance>());
+    let bytes = count * each as f64;
+    if bytes <= limit as f64 {
+        return Ok(());
+    }
+    Err(RenderError::TooLarge(format!(
+        "the scene takes {count} instances × {each} bytes = {bytes} bytes, before any tree of them; {} {limit}",
+        whose(options)
+    )))
+}
+
+fn whose(options: &Options) -> &'static str {
+    if options.memory.is_some() { "the limit is" } else { "this machine has" }
+}
+
 /// Refuses an image that takes more than `options.memory`, or than the machine has.
 pub(super) fn check(options: &Options, passes: u32, width: u32, height: u32) -> Result<(), RenderError> {
     let Some(limit) = options.memory.or_else(memory::machine) else { return Ok(()) };
@@ -25,7 +45,7 @@ pub(super) fn check(options: &Options, passes: u32, width: u32, height: u32) -> 
     if bytes <= limit {
         return Ok(());
     }
-    let whose = if options.memory.is_some() { "the limit is" } else { "this machine has" };
+    let whose = whose(options);
     Err(RenderError::TooLarge(format!(
         "the image takes {width} × {height} pixels × ({sums} bytes of sums + {layers} of layers) = {bytes} bytes; \
          {whose} {limit}"

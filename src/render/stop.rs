@@ -10,7 +10,7 @@
 
 use super::{Options, Progress};
 use crate::film::Film;
-use crate::plan::{FEWEST, Plan, Until};
+use crate::plan::{FEWEST, LONGEST, Plan, Until};
 use crate::trace::Resting;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
@@ -68,7 +68,7 @@ impl Stop {
         let values = film.window.pixels() as f64 * (3 + 3 * options.aovs.len()) as f64;
         let deadline = plan.until.seconds.map(|seconds| {
             let left = (seconds - WRITING.0 - WRITING.1 * values).max(0.0);
-            options.began.unwrap_or(now) + Duration::from_secs_f64(left)
+            options.began.unwrap_or(now) + Duration::from_secs_f64(left.min(LONGEST))
         });
         let resting = plan.until.error.map(|_| Resting::none(film.width, film.height));
         let slowest_pass = Duration::ZERO;

@@ -3,6 +3,7 @@
 mod crop;
 mod farm;
 mod faults;
+mod limits;
 pub(crate) mod merge;
 pub(crate) mod resume;
 

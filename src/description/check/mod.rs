@@ -61,6 +61,7 @@ pub(super) fn check(
         // a wrong name makes another one unused: nothing that needs saying
         if sound && !checker.diagnostics.iter().any(|d| d.severity == Severity::Error) {
             usage::check(&mut checker);
+            usage::count(&mut checker);
             open::check(&mut checker);
             idle::check(&mut checker);
         }

@@ -37,9 +37,14 @@ struct Edit {
 impl Edit {
     fn new(argument: &str, source: usize) -> Outcome<Edit> {
         let whole = Span { source, start: 0, end: argument.len() };
-        let equals = argument.find('=').ok_or((whole, "expected path.to.key=value".to_owned()))?;
+        let equals =
+            unquoted(argument, '=').next().ok_or((whole, "expected path.to.key=value".to_owned()))?;
         let part = |start, end| Span { source, start, end };
         let path = steps(&argument[..equals], whole, part)?;
+        if path[0].0 == "include" {
+            let message = "what is included is read before anything is set: write it into the scene file";
+            return Err((path[0].1, message.to_owned()));
+        }
         Ok(Edit { path, value: value(argument, equals + 1, source) })
     }
 
@@ -58,18 +63,27 @@ impl Edit {
     }
 }
 
-/// A path's names, each with the span of its bytes.
+/// Where a sign stands outside of quotation marks.
+fn unquoted(text: &str, sign: char) -> impl Iterator<Item = usize> {
+    let mut quoted = false;
+    text.char_indices().filter_map(move |(i, c)| {
+        quoted ^= c == '"';
+        (c == sign && !quoted).then_some(i)
+    })
+}
+
+/// A path's names, each with the span of its bytes; in quotation marks, as messages show them, those with dots.
 fn steps(path: &str, whole: Span, span: impl Fn(usize, usize) -> Span) -> Outcome<Vec<(String, Span)>> {
     let mut steps = Vec::new();
     let mut start = 0;
-    for part in path.split('.') {
-        let span = span(start, start + part.len());
-        let key = part.trim();
+    for end in unquoted(path, '.').chain([path.len()]) {
+        let (key, span) = (path[start..end].trim(), span(start, end));
+        let key = key.strip_prefix('"').and_then(|key| key.strip_suffix('"')).unwrap_or(key);
         if key.is_empty() {
             return Err((span, "a name is missing in the path".into()));
         }
         steps.push((key.to_owned(), span));
-        start += part.len() + 1;
+        start = end + 1;
     }
     if steps.len() > 64 {
         return Err((whole, "the path is too long".into()));

@@ -27,7 +27,7 @@ pub use table::COLUMNS;
 
 use crate::description::Loaded;
 use crate::output::hex;
-use crate::plan::Plan;
+use crate::plan::{LONGEST, Plan};
 use crate::render::{Options, Progress, RenderError};
 use reference::Truth;
 use std::io;
@@ -135,7 +135,7 @@ pub fn study(
     for left_out in &study.left_out {
         progress.note(&format!("{}: left out: {}", left_out.knob.key(), left_out.reason));
     }
-    let deadline = began + std::time::Duration::from_secs_f64(asked.seconds);
+    let deadline = began + std::time::Duration::from_secs_f64(asked.seconds.min(LONGEST));
     let rendered = rungs::render(&mut study, loaded, options, &truth, folder, deadline, progress)?;
     lines::conclude(&mut study, &plan);
     write_all(&study, &truth, loaded, folder)?;
