@@ -53,6 +53,7 @@ names:
 	    echo "make: SCENES and OUT may hold letters, digits and . _ - + @ , = only: rename the folder" >&2; \
 	    exit 2;; esac
 	@[ -d '$(SCENES)' ] || { echo "make: there is no folder $(SCENES)" >&2; exit 2; }
+	@[ -n '$(FOUND)' ] || echo "make: no scene (.ron, .toml) is in $(SCENES)" >&2
 	@twins=; for scene in $(foreach folder,$(SCENES) $(GALLERY),'$(folder)'/*.ron '$(folder)'/*.toml); do \
 	    [ -e "$$scene" ] || continue; \
 	    case "$${scene##*/}" in *[!A-Za-z0-9._+@,=-]*) \

@@ -43,7 +43,8 @@ pub fn run(args: &ConvertArgs, terminal: &Terminal) -> Result<(), Failure> {
     let name = args.output.display().to_string();
     output::atomic::write(&args.output, text.as_bytes()).map_err(|error| Failure::writing(&name, error))?;
     let folder = |path: &Path| path.parent().and_then(|folder| std::path::absolute(folder).ok());
-    if args.input != Path::new("-") && folder(&args.input) != folder(&args.output) {
+    let elsewhere = args.input != Path::new("-") && folder(&args.input) != folder(&args.output);
+    if elsewhere && scene.names_files() {
         terminal.warning(&format!(
             "paths in {name} are still relative to the folder of {}",
             args.input.display()

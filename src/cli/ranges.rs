@@ -6,8 +6,12 @@ pub fn numbers(text: &str, least: u32, most: usize) -> Result<Vec<u32>, String> 
     let mut list = Vec::new();
     for part in text.split(',') {
         let number = |text: &str| {
-            let found = text.trim().parse::<u32>().ok();
-            found.ok_or_else(|| format!("`{part}` is neither a number (7) nor a range (1-48, 1-48:2)"))
+            let text = text.trim();
+            let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+            text.parse::<u32>().map_err(|_| match digits {
+                true => format!("`{part}`: numbers end with {}", u32::MAX),
+                false => format!("`{part}` is neither a number (7) nor a range (1-48, 1-48:2)"),
+            })
         };
         let (range, step) = match part.split_once(':') {
             Some((range, step)) => (range, number(step)?),
@@ -45,5 +49,9 @@ mod tests {
         for wrong in ["", "a", "3-1", "1-", "1-3:0", "-1", "1,,2", "0", "1-4294967295", "1-10", "1.5"] {
             assert!(numbers(wrong, 1, 9).is_err(), "{wrong}");
         }
+        assert_eq!(
+            numbers("1-99999999999", 1, 9),
+            Err("`1-99999999999`: numbers end with 4294967295".to_owned())
+        );
     }
 }

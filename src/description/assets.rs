@@ -3,6 +3,15 @@
 use super::tree::Path;
 use super::{EnvironmentMap, Light, Object, Scene, Shape, Texture};
 
+impl Scene {
+    /// Whether it names files that are read with it.
+    pub fn names_files(&self) -> bool {
+        let mut any = !self.include.is_empty();
+        for_each(&mut self.clone(), &mut |_, _| any = true);
+        any
+    }
+}
+
 /// Calls `visit` with each file's path, which it may change, and the place of that path in the scene.
 pub(crate) fn for_each(scene: &mut Scene, visit: &mut dyn FnMut(&mut String, &Path)) {
     for (name, texture) in scene.textures.iter_mut() {

@@ -180,7 +180,8 @@ fn cycles(c: &mut Checker) -> bool {
         .map(|(_, object, _)| {
             let mut found = Vec::new();
             uses(object, &mut found);
-            found.iter().filter_map(|name| index.get(name).copied()).collect()
+            let mut seen = HashSet::new();
+            found.iter().filter_map(|name| index.get(name).copied()).filter(|to| seen.insert(*to)).collect()
         })
         .collect();
     // depth-first without recursion: 0 new, 1 on the way, 2 done
