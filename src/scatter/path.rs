@@ -92,7 +92,7 @@ impl Walk<'_> {
         sink.ledger.paths += 1;
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
-        let Start { ray, power, media, falloff, emitter, .. } = start;
+        let Start { ray, power, media, falloff, emitter, within } = start;
         let mut path = Path {
             ray,
             power,
@@ -106,9 +106,12 @@ impl Walk<'_> {
             falloff,
             from: None,
         };
-        let mut t_max = start.t_max;
         loop {
             sink.ledger.rays += 1;
+            // A lamp that it has been sent into stops it wherever it gets to, by straight ways or bent ones.
+            let t_max = within.map_or(f64::INFINITY, |lamp| {
+                self.world.nearest_of(lamp, &path.ray, f64::INFINITY).map_or(0.0, |hit| hit.t)
+            });
             let hit = match path.from {
                 Some(from) => self.world.nearest_from(from, &path.ray, t_max),
                 None => self.world.nearest_from_emitter(emitter, &path.ray, t_max),
@@ -119,7 +122,6 @@ impl Walk<'_> {
                 *lost += path.power;
                 return;
             };
-            t_max = f64::INFINITY;
             let mut surface = self.world.surface_here(&path.ray, &hit);
             let mut behind = None;
             if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {

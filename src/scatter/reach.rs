@@ -7,6 +7,7 @@ use super::bounds::Bound;
 use super::source::{Domain, Kind, Source};
 use super::{Emission, casters, projection};
 use crate::build::World;
+use std::collections::BTreeMap;
 
 /// The part of an emitter's light that photons are sent from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,14 +46,22 @@ impl Emission {
     }
 }
 
-/// For each emitter of the world, the instances that bend or mirror light and that its light can reach.
+/// For each emitter of the world, what bends or mirrors light and can be reached by its light: of the instances that
+/// share object and materials the first one that is reached stands for all, as many lamps and many beads would
+/// make very many pairs.
 pub fn reached(world: &World) -> Vec<Vec<u32>> {
     let mut by_light = vec![Vec::new(); world.emitters.len()];
     let Some(scene) = casters::scene(world) else { return by_light };
-    let specular = casters::specular(world);
+    let mut alike: BTreeMap<(u32, u32), Vec<(u32, Bound)>> = BTreeMap::new();
+    for (i, bound) in casters::specular(world) {
+        let instance = &world.instances[i as usize];
+        alike.entry((instance.object, instance.binding)).or_default().push((i, bound));
+    }
     for source in Source::all(world, &scene) {
-        let found = &mut by_light[source.emitter as usize];
-        found.extend(specular.iter().filter(|(_, bound)| may_reach(world, &source, bound)).map(|(i, _)| *i));
+        let first = |group: &Vec<(u32, Bound)>| {
+            group.iter().find(|(_, bound)| may_reach(world, &source, bound)).map(|(i, _)| *i)
+        };
+        by_light[source.emitter as usize].extend(alike.values().filter_map(first));
     }
     for found in &mut by_light {
         found.sort_unstable();

@@ -76,8 +76,8 @@ pub(super) struct Start {
     /// Watts, were this the only sample of its domain.
     pub power: DVec3,
     pub media: MediaSet,
-    /// Where the emitter itself, unseen by rays, stops the light.
-    pub t_max: f64,
+    /// The emitter's instance, where it stops light that it sends inwards and rays do not meet it.
+    pub within: Option<u32>,
     /// The classic attenuation, in place of the inverse square of the distance.
     pub falloff: Option<[f64; 3]>,
     /// Index of its emitter in the world.
@@ -166,7 +166,7 @@ impl Source {
     }
 
     pub(super) fn start_within(&self, ray: Ray, power: DVec3, media: MediaSet) -> Start {
-        Start { ray, power, media, t_max: f64::INFINITY, falloff: None, emitter: self.emitter }
+        Start { ray, power, media, within: None, falloff: None, emitter: self.emitter }
     }
 }
 

@@ -58,7 +58,7 @@ impl Source {
         let mut start = self.leaving(world, placement, material, &point, dir, solid_angle * across)?;
         if !outwards && !instance.visible {
             // Rays do not meet the lamp, but its light does: from outside only its first surface shines.
-            start.t_max = world.nearest_of(index, &start.ray, f64::INFINITY).map_or(0.0, |hit| hit.t);
+            start.within = Some(index);
         }
         Some(start)
     }

@@ -3,6 +3,7 @@
 
 use super::lab::{Beneath, pane};
 use crate::render::meshes::{cube, folder};
+use crate::render::shot::focused;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -152,4 +153,28 @@ fn of_the_sky() {
         PI * sum / (2 * n * n) as f64
     };
     beneath.irradiance(&shot, Path::new("")).assert_is(beneath.mean(expected), MODEL, "sky");
+}
+
+/// Glass that bends nothing changes nothing, within a lamp that rays do not meet or cut by it: what it sends into
+/// itself ends at its own wall, through glass as well.
+#[test]
+fn of_an_unseen_sphere_with_glass_in_it() {
+    for (lamp, glass) in [
+        ("center: (0.1, 1.2, 0), radius: 0.4", "sphere(radius: 0.2, center: (0.1, 1.2, 0))"),
+        ("center: (0.1, 0.8, 0), radius: 0.2", "box(size: (1.2, 0.3, 1.2), center: (0.1, 0.6, 0))"),
+    ] {
+        let mean = |objects: &str| {
+            focused(format!(
+                "(camera: (eye: (0, 3, 4), target: (0, 0, 0), fov_deg: 35), image: (width: 40, height: 40),
+                materials: {{ \"white\": (diffuse: 0.8), \"glass\": (transmission: 1, ior: 1.0000001) }},
+                lights: {{ \"l\": sphere({lamp}, radiance: 10, visible: false) }},
+                objects: [(shape: quad(size: (30, 30)), material: \"white\"), {objects}])"
+            ))
+            .passes(16)
+            .render()
+            .mean()
+        };
+        let (with, without) = (mean(&format!("(shape: {glass}, material: \"glass\")")), mean(""));
+        assert!((with / without - 1.0).abs() < 0.02, "{glass}: {with} and {without}");
+    }
 }
