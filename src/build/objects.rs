@@ -6,7 +6,7 @@ use super::meshes::Meshes;
 use super::obj::PartName;
 use super::world::{Geometry, Instance};
 use super::{BuildError, scatter};
-use crate::description::{MAX_INSTANCES, Object, Scene, Shape as Described, Transform};
+use crate::description::{MAX_INSTANCES, MAX_NESTING, Object, Scene, Shape as Described, Transform};
 use crate::math::{DAffine3, DVec3, Placement};
 use crate::optics::{Cone, Cuboid, Disk, MaterialId, Polyhedron, Quad, Shape, Solid, Sphere};
 use std::collections::HashMap;
@@ -21,9 +21,6 @@ pub(super) struct Placed {
     pub object_names: Vec<String>,
     pub meshes: Meshes,
 }
-
-/// Groups within groups at most; the scene's check has refused definitions that contain themselves.
-const MAX_NESTING: u32 = 256;
 
 pub(super) struct Placer<'a> {
     pub scene: &'a Scene,

@@ -1,6 +1,6 @@
 //! How many instances a scene places, told before any is made: definitions of groups and scatters multiply.
 
-use super::{Object, Scene, Shape};
+use super::{MAX_NESTING, Object, Scene, Shape};
 use std::collections::HashMap;
 
 /// Instances of a scene at most: indices are 32 bits, and each takes some 300 bytes.
@@ -12,9 +12,6 @@ pub struct Instances<'a> {
     known: HashMap<&'a str, f64>,
     nesting: u32,
 }
-
-/// What is nested deeper is refused when it is built.
-const DEEPEST: u32 = 300;
 
 impl<'a> Instances<'a> {
     pub fn of(scene: &'a Scene) -> Instances<'a> {
@@ -28,7 +25,8 @@ impl<'a> Instances<'a> {
 
     /// Instances that an object places at least: a scatter may choose the smallest of its definitions each time.
     pub fn least(&mut self, object: &'a Object) -> f64 {
-        if self.nesting > DEEPEST {
+        // What is nested deeper is refused when it is built.
+        if self.nesting > MAX_NESTING {
             return 0.0;
         }
         self.nesting += 1;

@@ -47,7 +47,7 @@ pub use material::{BumpMap, Ior, Material, NAMED_IOR, NormalMap};
 pub use names::NameMap;
 pub use object::{Object, Polyhedron, Scatter, Shape, Smooth};
 pub use photons::{Indirect, IndirectBy, Kernel, Photons};
-pub use placed::used_materials;
+pub use placed::{MAX_NESTING, used_materials};
 pub(crate) use placed::{Use, uses};
 pub use reach::{PROJECT_MARK, Reach};
 pub use read::{Format, Loaded, load, load_as_written, load_on, load_str, load_str_as_written, load_str_on};

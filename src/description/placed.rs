@@ -67,8 +67,8 @@ struct Walk<'a> {
     seen: HashSet<(Label<'a>, &'a str, Option<&'a str>)>,
 }
 
-/// As deep as objects are placed.
-const MAX_NESTING: u32 = 256;
+/// Objects within objects at most.
+pub const MAX_NESTING: u32 = 256;
 
 impl<'a> Walk<'a> {
     fn of(scene: &'a Scene) -> Walk<'a> {

@@ -4,6 +4,7 @@
 mod energy;
 mod files;
 mod idle;
+mod instances;
 mod lights;
 mod materials;
 mod objects;
@@ -61,7 +62,7 @@ pub(super) fn check(
         // a wrong name makes another one unused: nothing that needs saying
         if sound && !checker.diagnostics.iter().any(|d| d.severity == Severity::Error) {
             usage::check(&mut checker);
-            usage::count(&mut checker);
+            instances::check(&mut checker);
             open::check(&mut checker);
             idle::check(&mut checker);
         }

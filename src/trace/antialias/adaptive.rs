@@ -187,22 +187,22 @@ impl Lattice<'_> {
 
     /// The mean of the noted samples but those that were dropped, of so many cells. Whether any is left.
     fn mean(&mut self, wants: Wants, cells: u32, value: &mut PixelValue) -> bool {
-        let finite = |&&(place, _): &&(u32, f64)| self.radiances[place as usize].is_finite();
-        let (mut sum, mut all) = (DVec3::ZERO, 0.0);
-        for &(place, weight) in self.cells.iter().filter(finite) {
+        self.cells.retain(|&(place, _)| self.radiances[place as usize].is_finite());
+        for &(place, weight) in &self.cells {
             self.tally.note(|recorder| recorder.weigh(place, weight));
+        }
+        if !self.samples.is_empty() {
+            let mut average = Average::of(wants);
+            self.cells.iter().for_each(|&(place, weight)| average.add(&self.samples[place as usize], weight));
+            return average.value(cells).map(|mean| *value = mean).is_some();
+        }
+        let (mut sum, mut all) = (DVec3::ZERO, 0.0);
+        for &(place, weight) in &self.cells {
             sum += self.radiances[place as usize].as_dvec3() * weight;
             all += weight;
         }
-        if self.samples.is_empty() {
-            value.of_radiance(sum * (1.0 / all), cells);
-            return all > 0.0;
-        }
-        let mut average = Average::of(wants);
-        for &(place, weight) in self.cells.iter().filter(finite) {
-            average.add(&self.samples[place as usize], weight);
-        }
-        average.value(cells).map(|mean| *value = mean).is_some()
+        value.of_radiance(sum * (1.0 / all), cells);
+        all > 0.0
     }
 
     /// The place of a lattice point's sample, traced when it is first asked for.
