@@ -7,6 +7,7 @@ use super::lights::Lights;
 use super::materials::{Surfaces, rgb};
 use super::media::Medium;
 use super::objects::Placed;
+use super::precision::Precision;
 use super::sights::Sights;
 use super::vista::Vista;
 use super::world::{Geometry, Instance, World};
@@ -51,16 +52,20 @@ pub(super) fn assemble(
         bounds[null as usize] = Aabb::EMPTY;
     }
     for (rank, &instance) in media.ranked.iter().enumerate() {
-        placed.instances[instance as usize].rank = rank as u32 + 1;
+        let instance = &mut placed.instances[instance as usize];
+        instance.rank = rank as u32 + 1;
+        let mut materials = placed.bindings[instance.binding as usize].iter();
+        instance.clear = !materials.any(|id| surfaces.materials[id.0 as usize].keeps_photons());
     }
     let coincidence = media.coincidence(&placed.instances, &placed.geometries, &bounds);
-    let contacts = Contacts::find(&media.ranked, &placed.instances, &bounds);
+    let mut precision = Precision::new(&placed.geometries);
+    let contacts = Contacts::find(&media.ranked, &placed.instances, &bounds, &mut precision);
     let media: Vec<Medium> = media
         .ranked
         .iter()
         .filter_map(|&i| {
             let (ior, absorption) = inside(&placed.instances[i as usize], &placed, &surfaces.materials)?;
-            Some(Medium { instance: i, ior, absorption })
+            Some(Medium { instance: i, ior, absorption, error: precision.of(&placed.instances[i as usize]) })
         })
         .collect();
     let sights = Sights::new(&placed.instances, &placed.geometries, &bounds, &all_bounds, &lights.emitters);

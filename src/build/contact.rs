@@ -5,13 +5,21 @@
 //! a gap of no width, what is opaque; a ray that would enter the glass there meets what is opaque.
 
 use super::media::MediaSet;
+use super::precision::Precision;
 use super::surface::Surface;
-use super::world::{Hit, Instance, World};
-use crate::math::{Aabb, DVec3, Ray, round_up};
+use super::world::{Geometry, Hit, Instance, World};
+use crate::math::{Aabb, DVec3, Ray, robust, round_up};
 
 /// Opaque instances whose bounds meet those of a transmissive one.
 #[derive(Clone, Debug)]
-pub enum Contacts {
+pub struct Contacts {
+    met: Opaque,
+    /// Bound of the `p_error` of their surfaces, metres.
+    error: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Opaque {
     /// Each with its bounds.
     Few(Vec<(Aabb, u32)>),
     /// Too many to be listed.
@@ -22,21 +30,30 @@ const FEW: usize = 8;
 
 impl Contacts {
     /// The contacts of every transmissive instance, in the order of `ranked`; empty bounds are never met.
-    pub(super) fn find(ranked: &[u32], instances: &[Instance], bounds: &[Aabb]) -> Vec<Contacts> {
+    pub(super) fn find(
+        ranked: &[u32],
+        instances: &[Instance],
+        bounds: &[Aabb],
+        precision: &mut Precision,
+    ) -> Vec<Contacts> {
         let opaque: Vec<u32> = (0u32..)
             .zip(instances)
             .filter(|(i, instance)| instance.rank == 0 && bounds[*i as usize] != Aabb::EMPTY)
             .map(|(i, _)| i)
             .collect();
+        let mut error_of = |i: u32| precision.of(&instances[i as usize]);
         // A look at every pair would be felt.
         if ranked.len().saturating_mul(opaque.len()) > 4_000_000 {
-            return vec![Contacts::Many; ranked.len()];
+            let error = opaque.iter().map(|&i| error_of(i)).fold(0.0, f64::max);
+            return vec![Contacts { met: Opaque::Many, error }; ranked.len()];
         }
         let of = |&glass: &u32| {
             let near = bounds[glass as usize];
-            let mut met = opaque.iter().filter(|&&i| near.overlaps(&bounds[i as usize]));
-            let few = met.by_ref().take(FEW).map(|&i| (bounds[i as usize], i)).collect();
-            if met.next().is_some() { Contacts::Many } else { Contacts::Few(few) }
+            let met: Vec<u32> =
+                opaque.iter().copied().filter(|&i| near.overlaps(&bounds[i as usize])).collect();
+            let error = met.iter().map(|&i| error_of(i)).fold(0.0, f64::max);
+            let few = || met.iter().map(|&i| (bounds[i as usize], i)).collect();
+            Contacts { met: if met.len() > FEW { Opaque::Many } else { Opaque::Few(few()) }, error }
         };
         ranked.iter().map(of).collect()
     }
@@ -44,9 +61,9 @@ impl Contacts {
     /// Whether something opaque may lie within `reach` metres of the point.
     #[inline]
     fn may_touch(&self, p: DVec3, reach: f64) -> bool {
-        match self {
-            Contacts::Many => true,
-            Contacts::Few(few) => few.iter().any(|(bounds, _)| {
+        match &self.met {
+            Opaque::Many => true,
+            Opaque::Few(few) => few.iter().any(|(bounds, _)| {
                 let (min, max) = (bounds.min.as_dvec3() - reach, bounds.max.as_dvec3() + reach);
                 (min.cmple(p) & p.cmple(max)).all()
             }),
@@ -61,6 +78,14 @@ pub struct Met {
     pub behind: Option<Hit>,
 }
 
+/// A surface that light crosses where it starts.
+pub struct Entry {
+    pub surface: Surface,
+    /// The media on its near and its far side.
+    pub before: MediaSet,
+    pub after: MediaSet,
+}
+
 impl World {
     /// What takes the place of the surface at a ray's nearest hit, reached through `media`, if something
     /// coincides with it there.
@@ -68,8 +93,9 @@ impl World {
     pub fn coinciding(&self, ray: &Ray, media: &MediaSet, hit: &Hit, surface: &Surface) -> Option<Met> {
         let rank = self.instances[hit.instance as usize].rank;
         if rank != 0 {
-            let band = band(ray, surface);
-            let touches = self.contacts[rank as usize - 1].may_touch(surface.p, band);
+            let contacts = &self.contacts[rank as usize - 1];
+            let band = band(ray, surface, contacts.error);
+            let touches = contacts.may_touch(surface.p, band);
             return if touches { self.touching(ray, media, surface, rank, band) } else { None };
         }
         if media.top() != 0 { self.leaving_within(ray, media.top(), hit, surface) } else { None }
@@ -78,12 +104,70 @@ impl World {
     /// The surface of a hit on glass, where something opaque lies in reach of rounding.
     #[inline(never)]
     fn touching(&self, ray: &Ray, media: &MediaSet, surface: &Surface, rank: u32, band: f64) -> Option<Met> {
-        let opaque = self.opaque_within(ray, surface.t, band)?;
+        let hit = self.opaque_within(ray, surface.t, band)?;
+        let opaque = self.surface(ray, &hit);
+        if !coincide(ray, surface, &opaque) {
+            return None;
+        }
         Some(if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
-            Met { surface: *surface, behind: Some(opaque) }
+            Met { surface: *surface, behind: Some(hit) }
         } else {
-            Met { surface: self.surface(ray, &opaque), behind: None }
+            Met { surface: opaque, behind: None }
         })
+    }
+
+    /// What light crosses first that a lamp sends into glass which is flush with it: the lamp is across a gap of no
+    /// width, so that the light meets the glass's surface. `ray` starts on the lamp, at a point known to within
+    /// `p_error` metres on a face of normal `ng`, or beyond it in `media`. `None` where there is no such surface.
+    pub fn entered(&self, ray: &Ray, p_error: f64, ng: DVec3, media: &MediaSet) -> Option<Entry> {
+        let slant = slant(ray, ng);
+        let enters = |rank: u32| {
+            let medium = &self.media[rank as usize - 1];
+            let band = BAND * (p_error + medium.error) * slant;
+            let probe = Ray { origin: ray.at(-band), dir: ray.dir };
+            let hit = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
+            let surface = self.surface(&probe, &hit);
+            let apart = BAND * (p_error + surface.p_error) * slant;
+            let flush = (surface.t - band).abs() <= apart && surface.ng.dot(ray.dir) < 0.0;
+            // Beyond both, so that what goes on does not meet the lamp.
+            flush.then(|| surface.started_at(ray.at(apart)))
+        };
+        let flush: Vec<(u32, Surface)> = (1..=self.media.len() as u32)
+            .filter(|&rank| rank >= media.top())
+            .filter_map(|rank| Some((rank, enters(rank)?)))
+            .collect();
+        // Beneath a medium that counts more, a surface is none.
+        let &(_, surface) = flush.last()?;
+        let set = |set: MediaSet, inwards| {
+            flush.iter().fold(set, |set, &(rank, _)| set.crossed(rank, inwards).unwrap_or(set))
+        };
+        Some(Entry { surface, before: set(*media, false), after: set(*media, true) })
+    }
+
+    /// Whether glass that the ray starts in is flush with the lamp in which it ends at t = 1, at a point known to
+    /// within `p_error` metres or as its shape has it: the lamp is then across a gap, and not seen without a
+    /// refraction.
+    #[inline]
+    pub fn left_at(&self, ray: &Ray, p_error: Option<f64>, media: &MediaSet, lamp: u32) -> bool {
+        let rank = media.top();
+        rank != 0 && rank != self.instances[lamp as usize].rank && self.left_about(ray, p_error, rank, lamp)
+    }
+
+    #[inline(never)]
+    fn left_about(&self, ray: &Ray, p_error: Option<f64>, rank: u32, lamp: u32) -> bool {
+        let p_error = p_error.unwrap_or_else(|| {
+            let Geometry::Shape(shape) = self.geometry(lamp) else { return 0.0 };
+            let placement = &self.instances[lamp as usize].placement;
+            robust::placed_error(placement, placement.local_point(ray.at(1.0)), shape.p_error())
+        });
+        let medium = &self.media[rank as usize - 1];
+        let length = ray.dir.length();
+        let unit = Ray { origin: ray.origin, dir: ray.dir / length };
+        let band = (BAND * (p_error + medium.error) * MOST_SLANT).min(length);
+        let probe = Ray { origin: unit.at(length - band), dir: unit.dir };
+        let Some(hit) = self.nearest_of(medium.instance, &probe, 2.0 * band) else { return false };
+        let surface = self.surface(&probe, &hit);
+        (surface.t - band).abs() <= BAND * (p_error + surface.p_error) * slant(&unit, surface.ng)
     }
 
     /// The first opaque surface within `band` of t along the ray.
@@ -106,24 +190,36 @@ impl World {
     /// The surface by which a ray leaves the medium of this rank where it meets an opaque one.
     #[inline(never)]
     fn leaving_within(&self, ray: &Ray, rank: u32, hit: &Hit, opaque: &Surface) -> Option<Met> {
-        let glass = self.left_within(ray, rank, opaque)?;
-        Some(Met { surface: self.surface(ray, &glass), behind: Some(*hit) })
-    }
-
-    fn left_within(&self, ray: &Ray, rank: u32, opaque: &Surface) -> Option<Hit> {
-        let band = band(ray, opaque);
+        let medium = &self.media[rank as usize - 1];
+        let band = band(ray, opaque, medium.error);
         if !self.contacts[rank as usize - 1].may_touch(opaque.p, band) {
             return None;
         }
         let start = opaque.t - band;
         let probe = Ray { origin: ray.at(start), dir: ray.dir };
-        let hit = self.nearest_of(self.media[rank as usize - 1].instance, &probe, 2.0 * band)?;
-        Some(Hit { t: start + hit.t, ..hit })
+        let glass = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
+        let surface = self.surface(ray, &Hit { t: start + glass.t, ..glass });
+        coincide(ray, &surface, opaque).then_some(Met { surface, behind: Some(*hit) })
     }
 }
 
-/// Half the length of ray on which surfaces count as one.
+/// So many times their errors are surfaces apart that count as one, or less.
+const BAND: f64 = 4.0;
+/// At grazing angles no farther along the ray than so many times that.
+const MOST_SLANT: f64 = 1e3;
+
 #[inline]
-fn band(ray: &Ray, surface: &Surface) -> f64 {
-    4.0 * surface.p_error / ray.dir.dot(surface.ng).abs().max(1e-3)
+fn slant(ray: &Ray, ng: DVec3) -> f64 {
+    (1.0 / ray.dir.dot(ng).abs()).min(MOST_SLANT)
+}
+
+/// Half the length of ray on which a surface may coincide with one of an error up to `other`.
+#[inline]
+fn band(ray: &Ray, surface: &Surface, other: f64) -> f64 {
+    BAND * (surface.p_error + other) * slant(ray, surface.ng)
+}
+
+/// Whether two surfaces on a ray count as one.
+fn coincide(ray: &Ray, a: &Surface, b: &Surface) -> bool {
+    (a.t - b.t).abs() <= band(ray, a, b.p_error)
 }

@@ -103,6 +103,7 @@ fn luminous_shape(
         binding: placed.bindings.len() as u32 - 1,
         placement,
         rank: 0,
+        clear: false,
         object: placed.object_names.len() as u32 - 1,
         visible,
     });

@@ -17,6 +17,8 @@ pub struct Medium {
     pub ior: Cauchy,
     /// 1/m.
     pub absorption: Color,
+    /// Bound of the `p_error` of its surface, metres.
+    pub error: f64,
 }
 
 /// Transmissive objects that may overlap at one point.
@@ -78,6 +80,11 @@ impl MediaSet {
         let highest = (0..CAPACITY).max_by_key(|&i| self.ranks[i]).unwrap_or(0);
         self.ranks.swap(0, highest);
         Some(self)
+    }
+
+    /// All of them, in any order.
+    pub fn ranks(&self) -> impl Iterator<Item = u32> + '_ {
+        self.entries().iter().copied()
     }
 
     fn entries(&self) -> &[u32] {

@@ -212,6 +212,7 @@ impl<'a> Placer<'a> {
             binding,
             placement,
             rank: 0,
+            clear: false,
             object: context.object,
             visible: true,
         });

@@ -107,6 +107,14 @@ impl<'a> Shading<'a> {
         Shading { material, wo, ng, ns, kd: none, ks: none, km: none, kt: none, emission: none }
     }
 
+    /// Whether photons are stored here, on the side of `wo`. Where a texture is black, too: photons around such a
+    /// place tell what arrives beside it.
+    pub fn keeps_photons(&self) -> bool {
+        let rest = (Color::ONE - self.km) * (Color::ONE - self.kt);
+        let receives = self.material.shades() && (rest != Color::ZERO || !self.material.specular.is_zero());
+        receives && self.wo.dot(self.ng) > 0.0
+    }
+
     /// Radiance that the surface itself sends towards `wo`.
     pub fn emitted(&self) -> Color {
         self.emission

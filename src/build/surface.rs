@@ -30,6 +30,11 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// The same, crossed at the point `p` where a ray starts.
+    pub(super) fn started_at(self, p: DVec3) -> Surface {
+        Surface { t: 0.0, p, ..self }
+    }
+
     /// Of a ray that leaves it in this direction.
     #[inline]
     pub fn start(&self, dir: DVec3) -> Start {

@@ -88,6 +88,8 @@ pub struct Instance {
     pub rank: u32,
     /// Index into [`World::object_names`].
     pub object: u32,
+    /// Whether it lets light through and keeps no photons anywhere.
+    pub clear: bool,
     /// Whether rays can meet it. Hidden lights only send light.
     pub visible: bool,
 }

@@ -21,23 +21,26 @@ pub enum Reach<'a> {
 }
 
 impl Caustics<'_> {
-    /// The density estimate at `p` on the side of the unit geometric normal `n`. `least` is the smallest
-    /// first radius that makes sense there, metres and above 0: that of what the camera cannot resolve.
-    /// `within` is a radius, metres, that replaces all of that.
+    /// The radius at `p` on the side of the unit geometric normal `n`, metres, or how photons choose it. `least` is the smallest first radius that makes sense there, metres and above 0: that of what the
+    /// camera cannot resolve.
+    #[inline]
+    pub fn radius(&self, p: Vec3, n: Vec3, least: f32) -> Radius {
+        match self.reach {
+            Reach::Shrinking { first, factor } => Radius::Fixed(first.radius(p, n).max(least) * factor),
+            Reach::Nearest { k, max } => Radius::Nearest { k, min: least.min(max), max },
+        }
+    }
+
+    /// The density estimate at `p` on that side; `seen` and `brdf` are those of [`PhotonMap::gather_seen`].
     #[inline]
     pub fn gather(
         &self,
         p: Vec3,
         n: Vec3,
-        least: f32,
-        within: Option<f32>,
+        radius: Radius,
+        seen: impl Fn(Vec3) -> bool,
         brdf: impl Fn(Vec3) -> Color,
     ) -> Gathered {
-        let radius = match self.reach {
-            _ if let Some(radius) = within => Radius::Fixed(radius),
-            Reach::Shrinking { first, factor } => Radius::Fixed(first.radius(p, n).max(least) * factor),
-            Reach::Nearest { k, max } => Radius::Nearest { k, min: least.min(max), max },
-        };
-        self.map.gather(&Query { p, n, radius }, self.kernel, brdf)
+        self.map.gather_seen(&Query { p, n, radius }, self.kernel, seen, brdf)
     }
 }

@@ -59,9 +59,23 @@ impl PhotonMap {
     /// the caller's.
     #[inline]
     pub fn gather(&self, query: &Query, kernel: Kernel, brdf: impl Fn(Vec3) -> Color) -> Gathered {
+        self.gather_seen(query, kernel, |_| true, brdf)
+    }
+
+    /// The same, of the photons of which `seen` says so, given the way to them from `query.p`. The others have a
+    /// part only in the choice of the radius.
+    #[inline]
+    pub fn gather_seen(
+        &self,
+        query: &Query,
+        kernel: Kernel,
+        seen: impl Fn(Vec3) -> bool,
+        brdf: impl Fn(Vec3) -> Color,
+    ) -> Gathered {
+        let weigh = |hit: &Hit| seen(hit.offset).then(|| brdf(hit.wi));
         match query.radius {
-            Radius::Fixed(radius) => self.gather_within(query, radius, kernel, &brdf),
-            Radius::Nearest { k, min, max } => self.gather_nearest(query, [min, max], k, kernel, &brdf),
+            Radius::Fixed(radius) => self.gather_within(query, radius, kernel, &weigh),
+            Radius::Nearest { k, min, max } => self.gather_nearest(query, [min, max], k, kernel, &weigh),
         }
     }
 
@@ -71,7 +85,7 @@ impl PhotonMap {
         query: &Query,
         radius: f32,
         kernel: Kernel,
-        brdf: &impl Fn(Vec3) -> Color,
+        weigh: &impl Fn(&Hit) -> Option<Color>,
     ) -> Gathered {
         let mut sum = Sum::new(kernel, radius);
         self.each(
@@ -80,7 +94,7 @@ impl PhotonMap {
             radius,
             #[inline(always)]
             |place, distance_squared| {
-                sum.add(&self.hit(query.p, place, distance_squared), brdf);
+                sum.add(&self.hit(query.p, place, distance_squared), weigh);
             },
         );
         sum.gathered(query.n)
@@ -93,7 +107,7 @@ impl PhotonMap {
         [min, max]: [f32; 2],
         k: usize,
         kernel: Kernel,
-        brdf: &impl Fn(Vec3) -> Color,
+        weigh: &impl Fn(&Hit) -> Option<Color>,
     ) -> Gathered {
         let k = k.max(2);
         let gathered = self.with_nearest(query.p, query.n, k, max, |nearest| {
@@ -106,11 +120,11 @@ impl PhotonMap {
             }
             let mut sum = Sum::new(kernel, radius);
             for candidate in counted {
-                sum.add(&self.hit(query.p, candidate.place(), candidate.distance_squared()), brdf);
+                sum.add(&self.hit(query.p, candidate.place(), candidate.distance_squared()), weigh);
             }
             Some(sum.gathered(query.n))
         });
-        gathered.unwrap_or_else(|| self.gather_within(query, min, kernel, brdf))
+        gathered.unwrap_or_else(|| self.gather_within(query, min, kernel, weigh))
     }
 }
 
@@ -132,9 +146,10 @@ impl Sum {
     }
 
     #[inline(always)]
-    fn add(&mut self, hit: &Hit, brdf: &impl Fn(Vec3) -> Color) {
+    fn add(&mut self, hit: &Hit, weigh: &impl Fn(&Hit) -> Option<Color>) {
+        let Some(part) = weigh(hit) else { return };
         let weight = self.kernel.shape(hit.distance_squared * self.inverse_square);
-        self.radiance += brdf(hit.wi) * hit.power * weight;
+        self.radiance += part * hit.power * weight;
         self.offset += hit.offset;
         self.photons += 1;
     }

@@ -31,4 +31,4 @@ pub use caustics::{Caustics, Reach};
 pub use gather::{Gathered, Query, Radius};
 pub use kernel::Kernel;
 pub use map::PhotonMap;
-pub use search::Hit;
+pub use search::{Hit, apart_squared};

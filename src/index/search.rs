@@ -152,6 +152,15 @@ impl PhotonMap {
     }
 }
 
+/// e² between a point with its normal and another with its own, metres²; none where photons of the one do not
+/// count at the other, however near.
+pub fn apart_squared(p: Vec3, n: Vec3, x: Vec3, normal: Vec3) -> Option<f32> {
+    (normal.dot(n) > LEAST_COSINE).then(|| {
+        let h = (x - p).dot((normal + n) * 0.5);
+        (x - p).length_squared() + PRESS * (h * h)
+    })
+}
+
 /// A square that is finite, since every distance to an absent box is infinite.
 fn square(radius: f32) -> f32 {
     (radius * radius).min(f32::MAX)

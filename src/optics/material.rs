@@ -107,6 +107,13 @@ impl Material {
         !(self.diffuse.is_zero() && self.specular.is_zero())
     }
 
+    /// Whether photons may be stored on some of it: it shades, and is neither all mirror nor all glass.
+    pub fn keeps_photons(&self) -> bool {
+        let all = |weight: &Weight| *weight == Weight::Constant(Color::ONE);
+        let covered = all(&self.reflection) || all(&self.transmission);
+        self.shades() && !(covered && self.specular.is_zero())
+    }
+
     pub fn emits(&self) -> bool {
         !self.emission.is_zero()
     }

@@ -58,6 +58,15 @@ struct Path {
     from: Option<Origin>,
 }
 
+/// What is opaque right at an interface.
+enum Beside {
+    Nothing,
+    /// On the far side of one by which the path leaves glass.
+    Behind(Hit),
+    /// On the near side of one by which the path enters it.
+    Lamp,
+}
+
 /// A way on from a specular surface.
 #[derive(Clone, Copy, Default)]
 struct Way {
@@ -92,7 +101,9 @@ impl Walk<'_> {
         sink.ledger.paths += 1;
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
-        let Start { ray, power, media, falloff, emitter, within } = start;
+        let Start { ray, power, media, falloff, emitter, within, entry } = start;
+        let media = entry.as_ref().map_or(media, |entry| entry.before);
+        let mut entry = entry;
         let mut path = Path {
             ray,
             power,
@@ -107,28 +118,15 @@ impl Walk<'_> {
             from: None,
         };
         loop {
-            sink.ledger.rays += 1;
-            // A lamp that it has been sent into stops it wherever it gets to, by straight ways or bent ones.
-            let t_max = within.map_or(f64::INFINITY, |lamp| {
-                self.world.nearest_of(lamp, &path.ray, f64::INFINITY).map_or(0.0, |hit| hit.t)
-            });
-            let hit = match path.from {
-                Some(from) => self.world.nearest_from(from, &path.ray, t_max),
-                None => self.world.nearest_from_emitter(emitter, &path.ray, t_max),
-            };
-            let Some(hit) = hit else {
-                let lost =
-                    if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
-                *lost += path.power;
-                return;
-            };
-            let mut surface = self.world.surface_here(&path.ray, &hit);
-            let mut behind = None;
-            if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {
-                (surface, behind) = (met.surface, met.behind);
-            }
-            self.absorb(&mut path, surface.t, sink);
-            if !self.interact(&mut path, &mut surface, behind, sequence, sink) {
+            if let Some(entry) = entry.take() {
+                let mut surface = entry.surface;
+                if !self.interact(&mut path, &mut surface, &Beside::Lamp, sequence, sink) {
+                    return;
+                }
+                if path.media.top() == entry.after.top() {
+                    path.media = entry.after;
+                }
+            } else if !self.step(&mut path, emitter, within, sequence, sink) {
                 return;
             }
             path.depth += 1;
@@ -139,6 +137,40 @@ impl Walk<'_> {
                 return;
             }
         }
+    }
+
+    /// Goes on to the next surface. Whether the path leaves it.
+    #[inline(always)]
+    fn step(
+        &self,
+        path: &mut Path,
+        emitter: u32,
+        within: Option<u32>,
+        sequence: Sequence,
+        sink: &mut Sink,
+    ) -> bool {
+        sink.ledger.rays += 1;
+        // A lamp that it has been sent into stops it wherever it gets to, by straight ways or bent ones.
+        let t_max = within.map_or(f64::INFINITY, |lamp| {
+            self.world.nearest_of(lamp, &path.ray, f64::INFINITY).map_or(0.0, |hit| hit.t)
+        });
+        let hit = match path.from {
+            Some(from) => self.world.nearest_from(from, &path.ray, t_max),
+            None => self.world.nearest_from_emitter(emitter, &path.ray, t_max),
+        };
+        let Some(hit) = hit else {
+            let lost = if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
+            *lost += path.power;
+            return false;
+        };
+        let mut surface = self.world.surface_here(&path.ray, &hit);
+        let mut beside = Beside::Nothing;
+        if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {
+            surface = met.surface;
+            beside = met.behind.map_or(Beside::Nothing, Beside::Behind);
+        }
+        self.absorb(path, surface.t, sink);
+        self.interact(path, &mut surface, &beside, sequence, sink)
     }
 
     fn absorb(&self, path: &mut Path, t: f64, sink: &mut Sink) {
@@ -157,7 +189,7 @@ impl Walk<'_> {
         &self,
         path: &mut Path,
         surface: &mut Surface,
-        behind: Option<Hit>,
+        beside: &Beside,
         sequence: Sequence,
         sink: &mut Sink,
     ) -> bool {
@@ -166,7 +198,7 @@ impl Walk<'_> {
         let mut shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
         let mut crossing = world.crossing(&path.media, path.ray.dir, surface, &shading, &mut sink.health);
         let unnoticed = crossing.as_ref().is_some_and(|c| c.after.top() == path.media.top());
-        if unnoticed && let Some(opaque) = &behind {
+        if unnoticed && let Beside::Behind(opaque) = beside {
             // Nothing is left here, so that what is opaque shows.
             *surface = world.surface(&path.ray, opaque);
             shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
@@ -195,7 +227,7 @@ impl Walk<'_> {
                 surface,
                 &shading,
                 crossing.as_ref(),
-                behind.is_some(),
+                beside,
                 [km, through],
                 scattered,
                 sequence,
@@ -233,11 +265,7 @@ impl Walk<'_> {
             Store::Direct => path.events == 0,
             Store::Indirect => path.bounces > 0,
         };
-        // Where a texture is black, too: photons around such a place tell what arrives beside it.
-        let rest = (Color::ONE - shading.km) * (Color::ONE - shading.kt);
-        let receives =
-            shading.material.shades() && (rest != Color::ZERO || !shading.material.specular.is_zero());
-        if !due || !receives || shading.wo.dot(shading.ng) <= 0.0 {
+        if !due || !shading.keeps_photons() {
             return false;
         }
         let attenuation = path.falloff.map_or(1.0, |[c0, c1, c2]| {
@@ -261,7 +289,7 @@ impl Walk<'_> {
     }
 
     /// Follows one of the ways on by Russian roulette; `km` and `through` are the shares of mirror and
-    /// interface; `touches` if something opaque lies right behind it. Whether the path goes on.
+    /// interface, which may have something opaque `beside` it. Whether the path goes on.
     #[expect(clippy::too_many_arguments, reason = "one step of one loop, apart for its length")]
     fn turn(
         &self,
@@ -269,7 +297,7 @@ impl Walk<'_> {
         surface: &Surface,
         shading: &Shading,
         crossing: Option<&Crossing>,
-        touches: bool,
+        beside: &Beside,
         [km, through]: [DVec3; 2],
         scattered: Option<(DVec3, DVec3)>,
         sequence: Sequence,
@@ -327,7 +355,12 @@ impl Walk<'_> {
         };
         // From before an interface that touches something, so that what touches is met.
         let from = surface.start(dir);
-        (path.from, path.ray) = if touches && i == REFRACTED {
+        let touches = match beside {
+            Beside::Nothing => false,
+            Beside::Behind(_) => i == REFRACTED,
+            Beside::Lamp => i != REFRACTED,
+        };
+        (path.from, path.ray) = if touches {
             let from = Origin { outside: false, ..from };
             (Some(from), Ray::reaching(surface.p, tolerance, surface.ng, dir))
         } else {

@@ -4,7 +4,7 @@
 
 use super::bounds::Bound;
 use super::casters;
-use crate::build::{Geometry, MediaSet, World};
+use crate::build::{Entry, Geometry, MediaSet, World};
 use crate::math::sampling::SphericalCell;
 use crate::math::{DVec2, DVec3, Frame, Ray};
 use crate::optics::{EmitterKind, Shape, spot_falloff};
@@ -78,6 +78,8 @@ pub(super) struct Start {
     pub media: MediaSet,
     /// The emitter's instance, where it stops light that it sends inwards and rays do not meet it.
     pub within: Option<u32>,
+    /// What it crosses where it starts, of glass that is flush with the emitter.
+    pub entry: Option<Box<Entry>>,
     /// The classic attenuation, in place of the inverse square of the distance.
     pub falloff: Option<[f64; 3]>,
     /// Index of its emitter in the world.
@@ -166,7 +168,7 @@ impl Source {
     }
 
     pub(super) fn start_within(&self, ray: Ray, power: DVec3, media: MediaSet) -> Start {
-        Start { ray, power, media, within: None, falloff: None, emitter: self.emitter }
+        Start { ray, power, media, within: None, entry: None, falloff: None, emitter: self.emitter }
     }
 }
 

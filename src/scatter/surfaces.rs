@@ -153,10 +153,16 @@ impl Source {
         if power == DVec3::ZERO {
             return None;
         }
-        // Beyond what may coincide with the lamp's surface, glass or a ceiling: where shadow rays end as well.
-        let p_error = FLUSH * robust::placed_error(placement, point.p, point.p_error);
+        let (p, p_error) =
+            (placement.point(point.p), robust::placed_error(placement, point.p, point.p_error));
         let ng = placement.unit_normal(point.ng);
-        Some(self.start(world, Ray::leaving(placement.point(point.p), p_error, ng, dir), power))
+        // Beyond a ceiling that may coincide with the lamp's surface: where shadow rays end as well.
+        let mut start = self.start(world, Ray::leaving(p, FLUSH * p_error, ng, dir), power);
+        // What shines and transmits has its light from its own surface, across no gap.
+        if self.media.is_none() && !material.transmits() {
+            start.entry = world.entered(&Ray { origin: p, dir }, p_error, ng, &start.media).map(Box::new);
+        }
+        Some(start)
     }
 }
 

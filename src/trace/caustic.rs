@@ -4,19 +4,17 @@
 //! shading normal. Each is weighed by cosθ_shading/cosθ_geometric (Veach 1997, 5.3), so that photons
 //! and shadow rays agree on smooth meshes and under normal maps.
 
+mod ground;
+
 use super::branch::{Branch, COVERAGE, INNER, OUTER};
 use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
-use crate::index::{Caustics, Gathered, Reach};
-use crate::math::random::Sequence;
-use crate::math::{Color, Frame, Ray, Vec3};
+use crate::index::{Caustics, Gathered, Radius, Reach};
+use crate::math::{Color, Vec3};
+use ground::Ground;
+use std::cell::OnceCell;
 use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::f64::consts::TAU;
-
-/// Counts of trials whose mean is taken, and the most trials of each: a surface that fills less of the disc
-/// than that is taken for noise.
-const COUNTS: u32 = 2;
-const MOST_TRIALS: u32 = 32;
 
 /// A caustic at a surface point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,6 +27,12 @@ pub struct Caustic {
     pub radius: f32,
     /// What the estimate's blur adds, by [`super::Look`]; known only where it is looked at.
     pub bias: [Color; 2],
+}
+
+/// What was gathered, and what makes up for the places of its disc where no photon could be.
+struct Estimate {
+    gathered: Gathered,
+    correction: f32,
 }
 
 impl Tracer<'_> {
@@ -52,34 +56,60 @@ impl Tracer<'_> {
         let by_normals =
             |wi: Vec3| if bent { (wi.dot(ns).max(0.0) / wi.dot(ng).max(1e-3)).min(10.0) } else { 1.0 };
         let lambert = base * std::f32::consts::FRAC_1_PI;
-        let gather = |within: Option<f32>| {
+        let mirror = (shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo).as_vec3();
+        let exponent = shading.material.shininess;
+        let peak = shading.ks * ((exponent + 2.0) / TAU) as f32;
+        let brdf = |wi: Vec3| {
             if shading.ks == Color::ZERO {
-                return caustics.gather(p, ng, least, within, |wi| lambert * by_normals(wi));
+                return lambert * by_normals(wi);
             }
-            let mirror = (shading.ns * (2.0 * shading.wo.dot(shading.ns)) - shading.wo).as_vec3();
-            let exponent = shading.material.shininess;
-            let peak = shading.ks * ((exponent + 2.0) / TAU) as f32;
-            caustics.gather(p, ng, least, within, |wi| {
-                let cos = f64::from(mirror.dot(wi).clamp(0.0, 1.0));
-                let lobe = if cos > 0.0 { libm::pow(cos, exponent) as f32 } else { 0.0 };
-                (lambert + peak * lobe) * by_normals(wi)
-            })
+            let cos = f64::from(mirror.dot(wi).clamp(0.0, 1.0));
+            let lobe = if cos > 0.0 { libm::pow(cos, exponent) as f32 } else { 0.0 };
+            (lambert + peak * lobe) * by_normals(wi)
         };
-        let gathered = gather(None);
         let probing = tally.probing;
-        // A probe looks at what is just beyond the radius in any case, or its mean would be off.
+        let mut estimate = |radius: Radius, dimension: u64| {
+            let around = |radius| Ground::around(self.world, surface, shading, radius);
+            let ground = OnceCell::new();
+            let gathered = match radius {
+                Radius::Fixed(radius) => {
+                    let holds = |offset| {
+                        ground.get_or_init(|| around(radius)).as_ref().is_none_or(|g| g.holds(offset))
+                    };
+                    caustics.gather(p, ng, Radius::Fixed(radius), holds, brdf)
+                }
+                Radius::Nearest { .. } => {
+                    // The ground is looked at when the photons have chosen the radius.
+                    let all = caustics.gather(p, ng, radius, |_| true, brdf);
+                    match ground.get_or_init(|| around(all.radius)) {
+                        Some(ground) if ground.is_crowded() => {
+                            caustics.gather(p, ng, radius, |offset| ground.holds(offset), brdf)
+                        }
+                        _ => all,
+                    }
+                }
+            };
+            // A probe looks at what is just beyond the radius in any case, or its mean would be off.
+            if gathered.photons == 0 && !probing {
+                return Estimate { gathered, correction: 1.0 };
+            }
+            let Some(ground) = ground.get_or_init(|| around(gathered.radius)) else {
+                return Estimate { gathered, correction: 1.0 };
+            };
+            let sequence = branch.sequence.dimension(dimension);
+            let (correction, places) = ground.correction(caustics.kernel, sequence);
+            tally.rays.probe += u64::from(places);
+            Estimate { gathered, correction }
+        };
+        let Estimate { gathered, correction } = estimate(caustics.radius(p, ng, least), COVERAGE);
         if gathered.photons == 0 && !probing {
             return Caustic { radius: gathered.radius, ..Caustic::default() };
         }
-        let sequence = branch.sequence.dimension(COVERAGE);
-        let correction = self.edge_correction(caustics, surface, shading, &gathered, sequence, tally);
-        let mut look = |within: f32, dimension: u64| {
-            let other = gather(Some(within));
-            let sequence = branch.sequence.dimension(dimension);
-            let correction = self.edge_correction(caustics, surface, shading, &other, sequence, tally);
-            other.radiance * correction
-        };
         let radiance = gathered.radiance * correction;
+        let mut look = |within: f32, dimension: u64| {
+            let Estimate { gathered, correction } = estimate(Radius::Fixed(within), dimension);
+            gathered.radiance * correction
+        };
         // The blur's bias goes as r² (Silverman 1986, 4.3): there is twice of it at √2·r, half of it at r/√2.
         let bias = if probing {
             let narrow = 2.0 * (radiance - look(gathered.radius * FRAC_1_SQRT_2, INNER));
@@ -118,40 +148,5 @@ impl Tracer<'_> {
             }
         });
         dot
-    }
-
-    /// What the estimate is multiplied by where the surface ends within the disc, so that photons cannot
-    /// lie on all of it: the inverse of the kernel's integral over the surface. As many places as are
-    /// drawn from the kernel until one lies on the surface are that inverse in the mean, which leaves no bias.
-    /// Looked for where the shape does not say that its face goes on for the radius.
-    fn edge_correction(
-        &self,
-        caustics: &Caustics,
-        surface: &Surface,
-        shading: &Shading,
-        gathered: &Gathered,
-        sequence: Sequence,
-        tally: &mut Tally,
-    ) -> f32 {
-        let radius = f64::from(gathered.radius);
-        if self.world.clearance(surface) >= radius {
-            return 1.0;
-        }
-        let frame = Frame::around(shading.ng);
-        let lift = shading.ng * (0.25 * radius + surface.p_error);
-        let lies_on_surface = |count: u32, trial: u32| {
-            let [u, v] = sequence.dimension(u64::from(trial)).split(count, COUNTS).pair();
-            let (sin, cos) = libm::sincos(TAU * v);
-            let away = (frame.s * cos + frame.t * sin) * (caustics.kernel.distance(u) * radius);
-            let ray = Ray { origin: surface.p + away + lift, dir: -shading.ng };
-            let hit = self.world.nearest(&ray, 2.0 * lift.length());
-            hit.is_some_and(|hit| self.world.surface(&ray, &hit).ng.dot(shading.ng).abs() > 0.5)
-        };
-        let mut trials = 0;
-        for count in 0..COUNTS {
-            trials += (1..=MOST_TRIALS).find(|&trial| lies_on_surface(count, trial)).unwrap_or(MOST_TRIALS);
-        }
-        tally.rays.probe += u64::from(trials);
-        trials as f32 / COUNTS as f32
     }
 }

@@ -119,14 +119,21 @@ impl Tracer<'_> {
             return Color::ZERO;
         }
         tally.rays.shadow += u64::from(self.plan.shadows);
-        if !self.visible(emitter, surface, shading, sample) {
+        if !self.visible(emitter, surface, shading, media, sample) {
             return Color::ZERO;
         }
         value * self.world.transmittance(media, sample.distance)
     }
 
     /// Whether nothing hides the light of an emitter, by its index.
-    fn visible(&self, emitter: usize, surface: &Surface, shading: &Shading, sample: &LightSample) -> bool {
+    fn visible(
+        &self,
+        emitter: usize,
+        surface: &Surface,
+        shading: &Shading,
+        media: &MediaSet,
+        sample: &LightSample,
+    ) -> bool {
         let lifted = surface.lifted.is_some();
         let above = sample.wi.dot(shading.ng) > 0.0;
         if !above && !lifted {
@@ -154,6 +161,13 @@ impl Tracer<'_> {
                 let ray = Ray { origin, dir: p - origin };
                 let flush = self.world.flush(&ray, p, instance);
                 !occluded(&ray, 1.0 - flush, Some(instance))
+                    && !self.world.left_at(&ray, None, media, instance)
+            }
+            Arrival::Facet { p, p_error, instance } => {
+                let ray = Ray { origin, dir: p - origin };
+                // It has been moved by as much.
+                let p_error = Some(2.0 * p_error);
+                !occluded(&ray, 1.0, None) && !self.world.left_at(&ray, p_error, media, instance)
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };

@@ -22,9 +22,15 @@ pub struct LightSample {
 #[derive(Clone, Copy)]
 pub enum Arrival {
     Infinite,
-    /// A point in the open, or just off an emitting surface.
+    /// A point in the open.
     Point {
         p: DVec3,
+    },
+    /// A point just off an emitting mesh, as far as its own error.
+    Facet {
+        p: DVec3,
+        p_error: f64,
+        instance: u32,
     },
     /// The first point of a convex emitter.
     Shape {
@@ -173,7 +179,12 @@ impl Tracer<'_> {
         let there = self.world.surface(&ray, &hit);
         let end = Ray::leaving(there.p, there.p_error, there.ng, -ray.dir).origin;
         let value = radiance / pdf as f32;
-        Some(LightSample { wi: ray.dir, value, distance: t, arrival: Arrival::Point { p: end } })
+        Some(LightSample {
+            wi: ray.dir,
+            value,
+            distance: t,
+            arrival: Arrival::Facet { p: end, p_error: there.p_error, instance: index },
+        })
     }
 
     /// One direction from the balance of several densities (Veach & Guibas 1995): the environment's own;

@@ -22,11 +22,11 @@ const LANES: usize = 8;
 /// leave single precision, and hits are missed.
 #[derive(Clone, Debug)]
 pub struct TriangleBvh {
-    nodes: Store<node::Rows>,
-    packets: Store<packet::Rows>,
+    pub(super) nodes: Store<node::Rows>,
+    pub(super) packets: Store<packet::Rows>,
     bounds: Aabb,
     triangles: usize,
-    machine: Machine,
+    pub(super) machine: Machine,
 }
 
 impl TriangleBvh {

@@ -11,6 +11,7 @@ mod collapse;
 mod few;
 mod mesh;
 mod node;
+mod overlap;
 mod packet;
 mod ray;
 mod store;

@@ -13,11 +13,11 @@ use crate::math::lanes::{Lanes, Machine, Work};
 /// A tree over boxes: the top level of a scene.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    nodes: Vec<Rows>,
+    pub(super) nodes: Vec<Rows>,
     /// All boxes in one row of blocks, where they are few: no tree is needed then.
     few: Option<Few>,
     bounds: Aabb,
-    machine: Machine,
+    pub(super) machine: Machine,
 }
 
 impl Bvh {

@@ -8,6 +8,7 @@ use super::TriangleMesh;
 use crate::math::robust::gamma_f32;
 use crate::math::{DVec2, DVec3};
 use crate::optics::LocalSurface;
+use rayon::prelude::*;
 
 /// A point of a triangle, and what both its surface and its shadow rays are computed from.
 pub struct Facet<'a> {
@@ -43,6 +44,22 @@ impl TriangleMesh {
         let normals = if self.normals.is_empty() { [ng; 3] } else { self.corner_normals(triangle, ng) };
         let p_error = traversal_error(&corners, area, p);
         Facet { mesh: self, triangle, corners, edges, b, p, p_error, ng, normals }
+    }
+
+    /// An upper bound of the `LocalSurface::p_error` of all its points.
+    pub fn most_error(&self) -> f64 {
+        let of = |triangle: u32| {
+            let corners = self.corners(triangle);
+            let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+            // Both of its terms are largest at a corner.
+            corners.iter().map(|&p| traversal_error(&corners, area, p)).fold(0.0, f64::max)
+        };
+        (0..self.triangles.len() as u32)
+            .into_par_iter()
+            .with_min_len(1024)
+            .map(of)
+            .filter(|error| error.is_finite())
+            .reduce(|| 0.0, f64::max)
     }
 
     /// The unit normals of the three vertices, as exact as single precision has them; `ng` for those without.

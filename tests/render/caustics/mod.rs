@@ -2,8 +2,10 @@
 //! against references, and against itself seen in another way.
 
 pub(crate) mod absent;
+mod flush;
 pub(crate) mod lab;
 mod lights;
+mod neighbours;
 pub(crate) mod parts;
 mod radius;
 pub(crate) mod scales;

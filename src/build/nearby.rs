@@ -1,0 +1,125 @@
+//! What lies around a surface point, for photons that are gathered across the surface there: what may cut some of
+//! its places off from the point, and which surface it is that lies at such a place.
+//!
+//! What is clear (see [`Instance::clear`]) counts as absent: photons lie beneath it and around it alike.
+
+use super::bvh::BoxRay;
+use super::surface::Surface;
+use super::world::{Geometry, Hit, Instance, World};
+use crate::math::{Aabb, DVec3, Ray, round_up};
+
+/// Faces that are looked through from behind at most, on the way to a place.
+const MOST_BACKS: u32 = 4;
+
+/// Instances that may cut places off from a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Obstacles {
+    listed: [u32; LISTED],
+    /// All of them, more than are listed too.
+    count: usize,
+}
+
+const LISTED: usize = 6;
+
+impl Obstacles {
+    pub fn are_none(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Whether no more need be looked for.
+    fn add(&mut self, instance: u32) -> bool {
+        if let Some(place) = self.listed.get_mut(self.count) {
+            *place = instance;
+        }
+        self.count += 1;
+        self.count > LISTED
+    }
+}
+
+impl World {
+    /// What is not clear and may come up through the disc of a radius around a point of a surface, or lie over it
+    /// no higher than `height`, metres: other objects, and its own mesh where faces of it lie across its normal.
+    /// `n` is the unit geometric normal on the side that is meant. Some may be listed in vain.
+    pub fn obstacles(&self, surface: &Surface, n: DVec3, radius: f64, height: f64) -> Obstacles {
+        let half = (DVec3::ONE - n * n).max(DVec3::ZERO);
+        let half = DVec3::new(half.x.sqrt(), half.y.sqrt(), half.z.sqrt()) * radius + n.abs() * height;
+        let disc = [surface.p - half, surface.p + half];
+        let within = |i: u32| {
+            let instance = &self.instances[i as usize];
+            if instance.clear {
+                return false;
+            }
+            let Geometry::Mesh(mesh) = &self.geometries[instance.geometry as usize] else {
+                return i != surface.instance;
+            };
+            let across = |[a, b, c]: [DVec3; 3]| {
+                instance.placement.unit_normal((b - a).cross(c - a)).dot(n).abs() < 0.5
+            };
+            mesh.tree.any_in(&local_bounds(instance, disc), |corners| {
+                i != surface.instance || across(corners.map(|v| v.as_dvec3()))
+            })
+        };
+        let mut obstacles = Obstacles::default();
+        self.tree.any_in(&Aabb::from_f64(disc[0], disc[1]), |i| within(i) && obstacles.add(i));
+        obstacles
+    }
+
+    /// Whether any of the obstacles lies between two points.
+    pub fn cut_off(&self, obstacles: &Obstacles, from: DVec3, to: DVec3) -> bool {
+        let ray = Ray { origin: from, dir: to - from };
+        if let Some(listed) = obstacles.listed.get(..obstacles.count) {
+            return listed.iter().any(|&i| self.hides(i, &ray, 1.0));
+        }
+        self.tree.any(&BoxRay::rounded(&ray), 1.0, |i| {
+            !self.instances[i as usize].clear && self.hides(i, &ray, 1.0)
+        })
+    }
+
+    /// The nearest hit with 0 < t < t_max on what is not clear.
+    pub fn nearest_unclear(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
+        let mut best = Hit { t: t_max, instance: 0, primitive: 0, b: [0.0; 3] };
+        let mut met = false;
+        self.tree.nearest(&BoxRay::rounded(ray), round_up(t_max), |i, _| {
+            let nearer = !self.instances[i as usize].clear && self.nearer(i, ray, &mut best);
+            met |= nearer;
+            nearer.then(|| round_up(best.t))
+        });
+        met.then_some(best)
+    }
+
+    /// The first surface on a ray that is not clear and not met from within a solid, up to t_max. What is seen on
+    /// the inner side of `own`'s object is what `own` goes on as, if it is itself met there: `within`.
+    pub fn first_front(&self, ray: &Ray, t_max: f64, own: &Surface, within: bool) -> Option<Surface> {
+        let mut start = 0.0;
+        for _ in 0..MOST_BACKS {
+            let rest = Ray { origin: ray.at(start), dir: ray.dir };
+            let hit = self.nearest_unclear(&rest, t_max - start)?;
+            let surface = self.surface(&rest, &hit);
+            let behind = ray.dir.dot(surface.ng) > 0.0 && !self.is_flat(hit.instance);
+            if !behind || (within && hit.instance == own.instance) {
+                return Some(surface);
+            }
+            start += surface.t + 4.0 * surface.p_error / ray.dir.dot(surface.ng).abs().max(1e-3);
+        }
+        None
+    }
+
+    /// Whether neither side of an instance is its inner one.
+    fn is_flat(&self, instance: u32) -> bool {
+        matches!(self.geometry(instance), Geometry::Shape(shape) if !shape.closed())
+    }
+}
+
+/// The bounds in object space of a box in the world.
+fn local_bounds(instance: &Instance, [min, max]: [DVec3; 2]) -> Aabb {
+    let corners = (0..8).map(|i| {
+        let pick = |bit: u32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+        instance.placement.local_point(DVec3::new(
+            pick(1, min.x, max.x),
+            pick(2, min.y, max.y),
+            pick(4, min.z, max.z),
+        ))
+    });
+    let (lo, hi) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+    Aabb::from_f64(lo, hi)
+}

@@ -1,0 +1,110 @@
+//! The ground of a density estimate: those places of the disc around a point on which photons can lie and be
+//! counted there.
+//!
+//! The estimate is divided by the kernel's integral over the ground, so that it is even up to where the ground
+//! ends: at the edge of its face, at a mirror or something black let into it, at the foot of a wall. What a wall
+//! cuts off is no part of the ground, and photons there are none of the estimate's, whichever surface goes on
+//! behind it: the two have to agree about every place, or the estimate has a bias where light is even.
+
+use crate::build::{Obstacles, Shading, Surface, World};
+use crate::index::{Kernel, apart_squared};
+use crate::math::random::Sequence;
+use crate::math::{DVec3, Frame, Ray, Vec3};
+use std::f64::consts::TAU;
+
+/// Counts of trials whose mean is taken, and the most trials of each: ground that fills less of the disc
+/// than that is taken for noise.
+const COUNTS: u32 = 2;
+const MOST_TRIALS: u32 = 32;
+
+/// Heights over the tangent plane in radii: where what lies at a place is looked for from and how far down, more
+/// than a surface bends whose photons count; and that of the sight from place to place.
+const ABOVE: f64 = 0.25;
+const BELOW: f64 = 0.6;
+const SIGHT: f64 = 0.125;
+
+/// The surface around a point, where it may not be even ground for the whole radius.
+pub(super) struct Ground<'a> {
+    world: &'a World,
+    surface: &'a Surface,
+    /// On the side that is seen.
+    n: DVec3,
+    radius: f64,
+    /// How high over the surface the sight from place to place goes, metres, and what may be in its way.
+    sight: f64,
+    obstacles: Obstacles,
+}
+
+impl<'a> Ground<'a> {
+    /// None where the ground is even all round the point.
+    pub fn around(
+        world: &'a World,
+        surface: &'a Surface,
+        shading: &Shading,
+        radius: f32,
+    ) -> Option<Ground<'a>> {
+        let (n, radius) = (shading.ng, f64::from(radius));
+        let obstacles = world.obstacles(surface, n, radius, ABOVE * radius);
+        if obstacles.are_none() && world.clearance(surface) >= radius {
+            return None;
+        }
+        let mut sight = SIGHT * radius;
+        if !obstacles.are_none() {
+            // Under something lower than twice that, half-way up to it.
+            let up = Ray { origin: surface.p + n * surface.p_error, dir: n };
+            sight = world.nearest_unclear(&up, 2.0 * sight).map_or(sight, |hit| 0.5 * hit.t);
+        }
+        Some(Ground { world, surface, n, radius, sight, obstacles })
+    }
+
+    /// Whether anything may cut places off from the point.
+    pub fn is_crowded(&self) -> bool {
+        !self.obstacles.are_none()
+    }
+
+    /// Whether a photon this far away lies on the ground.
+    pub fn holds(&self, offset: Vec3) -> bool {
+        self.reaches(self.surface.p + offset.as_dvec3())
+    }
+
+    fn reaches(&self, place: DVec3) -> bool {
+        let up = self.n * self.sight;
+        !self.is_crowded() || !self.world.cut_off(&self.obstacles, self.surface.p + up, place + up)
+    }
+
+    /// What the estimate is multiplied by: the inverse of the kernel's integral over the ground. As many places as
+    /// are drawn from the kernel until one lies on the ground are that inverse in the mean, which leaves no bias.
+    /// With the number of places.
+    pub fn correction(&self, kernel: Kernel, sequence: Sequence) -> (f32, u32) {
+        let frame = Frame::around(self.n);
+        let on_ground = |count: u32, trial: u32| {
+            let [u, v] = sequence.dimension(u64::from(trial)).split(count, COUNTS).pair();
+            let (sin, cos) = libm::sincos(TAU * v);
+            self.has((frame.s * cos + frame.t * sin) * (kernel.distance(u) * self.radius))
+        };
+        let trials: u32 = (0..COUNTS)
+            .map(|count| (1..=MOST_TRIALS).find(|&trial| on_ground(count, trial)).unwrap_or(MOST_TRIALS))
+            .sum();
+        (trials as f32 / COUNTS as f32, trials)
+    }
+
+    /// Whether the ground has a place over or under this point of the tangent plane.
+    fn has(&self, away: DVec3) -> bool {
+        let Ground { world, surface, n, radius, .. } = *self;
+        let above = ABOVE * radius + surface.p_error;
+        let ray = Ray { origin: surface.p + away + n * above, dir: -n };
+        let within = surface.ng.dot(n) < 0.0;
+        let Some(place) = world.first_front(&ray, above + BELOW * radius, surface, within) else {
+            return false;
+        };
+        let up = if place.ng.dot(n) < 0.0 { -place.ng } else { place.ng };
+        let offset = (place.p - surface.p).as_vec3();
+        let near = apart_squared(Vec3::ZERO, n.as_vec3(), offset, up.as_vec3())
+            .is_some_and(|e2| f64::from(e2) <= radius * radius);
+        near && self.keeps_photons(&place) && self.reaches(place.p)
+    }
+
+    fn keeps_photons(&self, place: &Surface) -> bool {
+        Shading::of_photon(self.world, place, self.n, false).keeps_photons()
+    }
+}
