@@ -11,7 +11,7 @@ use crate::scatter::{Aim, Emission, Ledger, Scattered, Store};
 use serde::Serialize;
 use std::time::Instant;
 
-/// Photons of the pilot from which the first radius comes.
+/// Photons of the pilot that tells how many a pass stores, and from which the first radius comes.
 const PILOT: (u32, u32) = (10_000, 100_000);
 
 /// The largest radius as a share of the size of what focuses light.
@@ -30,6 +30,8 @@ pub struct PhotonStage {
     reach: Rule,
     kernel: Kernel,
     max_radius: f32,
+    /// Photons that a pass is expected to store.
+    expected: f64,
 }
 
 enum Rule {
@@ -78,13 +80,14 @@ impl PhotonStage {
 
     fn of(world: &World, emission: Emission, budget: PhotonBudget, max_radius: f64) -> PhotonStage {
         let max_radius = budget.max_radius.unwrap_or(max_radius) as f32;
+        let most = if matches!(budget.engine, PhotonEngine::Classic { .. }) { PILOT.0 } else { PILOT.1 };
+        let count = budget.count.clamp(PILOT.0, most);
+        let pilot = emission.pilot().scatter(world, 0, count.into());
+        let expected = pilot.photons.len() as f64 * f64::from(budget.count) / f64::from(count);
         let reach = match budget.engine {
             PhotonEngine::Classic { k } => Rule::Nearest { k: k as usize },
             PhotonEngine::Progressive { alpha, k } => {
-                let count = budget.count.clamp(PILOT.0, PILOT.1);
-                let pilot = emission.pilot().scatter(world, 0, count.into());
-                let stored = pilot.photons.len() as f64 * f64::from(budget.count) / f64::from(count);
-                let first = Bandwidth::new(pilot.photons, stored, f64::from(k), 0.0, max_radius);
+                let first = Bandwidth::new(pilot.photons, expected, f64::from(k), 0.0, max_radius);
                 Rule::Shrinking { first, alpha }
             }
         };
@@ -93,7 +96,7 @@ impl PhotonStage {
             plan::Kernel::Cone => Kernel::Cone { kappa: 1.1 },
             plan::Kernel::Epanechnikov => Kernel::Epanechnikov,
         };
-        PhotonStage { emission, budget, reach, kernel, max_radius }
+        PhotonStage { emission, budget, reach, kernel, max_radius, expected }
     }
 
     /// At which its noise and its bias fall.
@@ -228,6 +231,11 @@ impl PassStages {
     pub fn indirect_of<'a>(&'a self, maps: &'a PassMaps, pass: u32) -> Option<Caustics<'a>> {
         let stage = self.indirect.as_ref()?;
         Some(stage.gathered(maps.indirect.as_ref()?, stage.factor(pass)))
+    }
+
+    /// Photons that a pass is expected to store, for caustics and for indirect light.
+    pub fn expected(&self) -> f64 {
+        [&self.caustic, &self.indirect].into_iter().flatten().map(|stage| stage.expected).sum()
     }
 
     /// Whether there are photons at all.

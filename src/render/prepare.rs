@@ -8,6 +8,7 @@ use crate::build::{self, Built, World};
 use crate::description::Loaded;
 use crate::forecast::{Cost, Pace, PhotonSeconds};
 use crate::plan::{Antialiasing, Plan};
+use crate::scatter::Photon;
 use crate::survey::Survey;
 use crate::trace::{self, Tracer, Wants};
 use std::path::PathBuf;
@@ -67,6 +68,7 @@ impl Prepared {
         }
         let survey = Survey::new(&world, &plan, stages.emission());
         clock.lap("survey");
+        room::check_photons(options, stages.expected(), BESIDE_EACH_OTHER)?;
         let first_pass = stretches(options, &plan).first().map_or(plan.first_pass, |stretch| stretch.start);
         let first = stages.pass(&world, first_pass);
         if stages.any() {
@@ -137,6 +139,10 @@ impl Prepared {
         self.photon_bytes
     }
 }
+
+/// Bytes of a stored photon, at the least, while its map is made: it stands there twice when what threads have
+/// scattered is put together, or once, with its places in the tree and in the map.
+const BESIDE_EACH_OTHER: f64 = 2.0 * size_of::<Photon>() as f64;
 
 /// What making a map takes beside it as it is finished: photons as they were stored (48 bytes against 30), the
 /// tree that divides them, and their order.

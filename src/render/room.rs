@@ -31,6 +31,21 @@ pub(super) fn check_scene(options: &Options, scene: &Scene) -> Result<(), Render
     )))
 }
 
+/// Refuses passes whose photons alone, `stored` of them at so many bytes `each` at the least while they are put
+/// into their map, take more than `options.memory`, or than the machine has.
+pub(super) fn check_photons(options: &Options, stored: f64, each: f64) -> Result<(), RenderError> {
+    let Some(limit) = options.memory.or_else(memory::machine) else { return Ok(()) };
+    let bytes = stored * each;
+    if bytes <= limit as f64 {
+        return Ok(());
+    }
+    Err(RenderError::TooLarge(format!(
+        "a pass stores about {stored:.0} photons × {each:.0} bytes = {bytes:.0} bytes at the least; {} {limit}; the scene's `photons` \
+         say how many are sent out",
+        whose(options)
+    )))
+}
+
 fn whose(options: &Options) -> &'static str {
     if options.memory.is_some() { "the limit is" } else { "this machine has" }
 }

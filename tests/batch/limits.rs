@@ -32,6 +32,22 @@ fn instances_are_counted_before_they_are_made() {
     Lab::new(&nested(3)).render(&["-o", "x.exr", "--memory", "1GiB"]);
 }
 
+/// How many photons a pass stores is known from the pilot, before any pass has scattered its own.
+#[test]
+fn photons_that_have_no_room_are_refused_before_they_are_scattered() {
+    let began = Instant::now();
+    let lab = Lab::new(CAUSTIC);
+    for photons in ["progressive(count: 100000000)", "classic(count: 100000000, k: 50)"] {
+        let set = format!("photons={photons}");
+        let render =
+            ["render", "scene.ron", "-o", "x.exr", "--passes", "1", "--memory", "1GiB", "--set", &set];
+        let said = lab.fails(5, &render);
+        assert!(said.contains("a pass stores about ") && said.contains("the limit is 1073741824"), "{said}");
+    }
+    assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+    lab.render(&["-o", "x.exr", "--passes", "1", "--memory", "1GiB"]);
+}
+
 #[test]
 fn a_time_that_no_clock_can_add_is_no_limit() {
     let lab = Lab::new(ADAPTIVE);
