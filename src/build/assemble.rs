@@ -44,6 +44,8 @@ pub(super) fn assemble(
     }
     warnings.extend(media.open_meshes(&placed));
     for (instance, bounds) in placed.instances.iter_mut().zip(&mut bounds) {
+        let [x, y, z] = bounds.extent().to_array();
+        instance.breadth = x.min(y).max(x.max(y).min(z));
         if !instance.visible {
             *bounds = Aabb::EMPTY;
         }

@@ -6,7 +6,7 @@
 use super::bvh::BoxRay;
 use super::surface::Surface;
 use super::world::{Geometry, Hit, Instance, World};
-use crate::math::{Aabb, DVec3, Ray, round_up};
+use crate::math::{Aabb, DVec3, Ray, Vec3, round_down, round_up};
 
 /// Faces that are looked through from behind at most, on the way to a place.
 const MOST_BACKS: u32 = 4;
@@ -20,6 +20,9 @@ pub struct Obstacles {
 }
 
 const LISTED: usize = 6;
+
+/// Objects around a point from which on no more are looked at: among so many, walls hardly matter.
+const MOST_LOOKS: u32 = 24;
 
 impl Obstacles {
     pub fn are_none(&self) -> bool {
@@ -38,30 +41,46 @@ impl Obstacles {
 
 impl World {
     /// What is not clear and may come up through the disc of a radius around a point of a surface, or lie over it
-    /// no higher than `height`, metres: other objects, and its own mesh where faces of it lie across its normal.
-    /// `n` is the unit geometric normal on the side that is meant. Some may be listed in vain.
+    /// no higher than `height`, metres: other objects that are no smaller than the disc, and its own mesh where such
+    /// triangles lie across its normal. `n` is the unit geometric normal on the side that is meant. Some may be
+    /// listed in vain.
     pub fn obstacles(&self, surface: &Surface, n: DVec3, radius: f64, height: f64) -> Obstacles {
         let half = (DVec3::ONE - n * n).max(DVec3::ZERO);
         let half = DVec3::new(half.x.sqrt(), half.y.sqrt(), half.z.sqrt()) * radius + n.abs() * height;
         let disc = [surface.p - half, surface.p + half];
+        let mut looks = 0;
         let within = |i: u32| {
             let instance = &self.instances[i as usize];
-            if instance.clear {
+            let own = i == surface.instance;
+            if instance.clear || (!own && self.is_roughness(i, radius)) {
                 return false;
             }
             let Geometry::Mesh(mesh) = &self.geometries[instance.geometry as usize] else {
-                return i != surface.instance;
+                return !own;
             };
-            let across = |[a, b, c]: [DVec3; 3]| {
-                instance.placement.unit_normal((b - a).cross(c - a)).dot(n).abs() < 0.5
+            let across = |corners: [Vec3; 3]| {
+                let [a, b, c] = corners.map(|v| instance.placement.vector(v.as_dvec3()));
+                let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+                let normal = (b - a).cross(c - a);
+                longest >= radius * radius && normal.dot(n).abs() < 0.5 * normal.length()
             };
-            mesh.tree.any_in(&local_bounds(instance, disc), |corners| {
-                i != surface.instance || across(corners.map(|v| v.as_dvec3()))
-            })
+            // In object space no edge that is long enough is shorter than this.
+            let least = if own { round_down(radius / instance.placement.stretch()) } else { 0.0 };
+            mesh.tree.any_in(&local_bounds(instance, disc), least, |corners| !own || across(corners))
         };
         let mut obstacles = Obstacles::default();
-        self.tree.any_in(&Aabb::from_f64(disc[0], disc[1]), |i| within(i) && obstacles.add(i));
+        self.tree.any_in(&Aabb::from_f64(disc[0], disc[1]), |i| {
+            looks += 1;
+            looks > MOST_LOOKS || (within(i) && obstacles.add(i))
+        });
         obstacles
+    }
+
+    /// Whether an instance is so small beside a disc of this radius that it is roughness of the surface on which it
+    /// stands, rather than something that the surface ends at.
+    #[inline]
+    pub fn is_roughness(&self, instance: u32, radius: f64) -> bool {
+        f64::from(self.instances[instance as usize].breadth) < 2.0 * radius
     }
 
     /// Whether any of the obstacles lies between two points.

@@ -90,6 +90,8 @@ pub struct Instance {
     pub object: u32,
     /// Whether it lets light through and keeps no photons anywhere.
     pub clear: bool,
+    /// The middle one of the extents of its placed bounds, metres.
+    pub breadth: f32,
     /// Whether rays can meet it. Hidden lights only send light.
     pub visible: bool,
 }

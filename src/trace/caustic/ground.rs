@@ -6,7 +6,7 @@
 //! cuts off is no part of the ground, and photons there are none of the estimate's, whichever surface goes on
 //! behind it: the two have to agree about every place, or the estimate has a bias where light is even.
 
-use crate::build::{Obstacles, Shading, Surface, World};
+use crate::build::{Geometry, Obstacles, Shading, Surface, World};
 use crate::index::{Kernel, apart_squared};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Frame, Ray, Vec3};
@@ -99,9 +99,19 @@ impl<'a> Ground<'a> {
         };
         let up = if place.ng.dot(n) < 0.0 { -place.ng } else { place.ng };
         let offset = (place.p - surface.p).as_vec3();
-        let near = apart_squared(Vec3::ZERO, n.as_vec3(), offset, up.as_vec3())
-            .is_some_and(|e2| f64::from(e2) <= radius * radius);
+        let apart = apart_squared(Vec3::ZERO, n.as_vec3(), offset, up.as_vec3());
+        let near = apart.is_some_and(|e2| self.is_rough(&place) || f64::from(e2) <= radius * radius);
         near && self.keeps_photons(&place) && self.reaches(place.p)
+    }
+
+    /// Whether a place lies where the ground is rough beside the disc, or may be: photons that lie too high or too
+    /// low to count are then by chance as many as others that do.
+    fn is_rough(&self, place: &Surface) -> bool {
+        let Ground { world, surface, radius, .. } = *self;
+        let folded = || matches!(world.geometry(surface.instance), Geometry::Mesh(_));
+        (place.instance == surface.instance && folded())
+            || world.is_roughness(place.instance, radius)
+            || world.is_roughness(surface.instance, radius)
     }
 
     fn keeps_photons(&self, place: &Surface) -> bool {
