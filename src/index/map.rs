@@ -8,7 +8,6 @@ use crate::scatter::Photon;
 use kiddo::kd_tree::KdTreeAccessor;
 use kiddo::{Eytzinger, FlatVec, KdTree, LeafStrategy};
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Photons of one leaf.
 pub const LEAF: usize = 8 * HALVES;
@@ -38,14 +37,18 @@ impl Positions {
     const NONE: Positions =
         Positions { x: [[f32::NAN; 8]; HALVES], y: [[f32::NAN; 8]; HALVES], z: [[f32::NAN; 8]; HALVES] };
 
-    fn of(indices: &[u32], photons: &[Photon]) -> Positions {
+    fn of(places: &[Place]) -> Positions {
         let mut all = Positions::NONE;
-        for (place, &index) in indices.iter().enumerate() {
-            let (half, lane) = (place / 8, place % 8);
-            [all.x[half][lane], all.y[half][lane], all.z[half][lane]] =
-                photons[index as usize].position.to_array();
+        for (i, place) in places.iter().enumerate() {
+            let (half, lane) = (i / 8, i % 8);
+            [all.x[half][lane], all.y[half][lane], all.z[half][lane]] = place.position.to_array();
         }
         all
+    }
+
+    /// Photons of the leaf, which come first.
+    fn count(&self) -> usize {
+        self.x.iter().flatten().take_while(|x| !x.is_nan()).count()
     }
 
     fn bounds(&self, count: usize) -> Bounds {
@@ -79,21 +82,29 @@ impl PhotonMap {
     pub fn new(mut photons: Vec<Photon>) -> PhotonMap {
         let all = photons.len();
         photons.retain(is_sound);
-        let (order, leaves) = partition(&photons);
-        let of_leaf = |leaf: &Range<usize>| &order[leaf.clone()];
-        let positions: Vec<Positions> =
-            leaves.par_iter().map(|leaf| Positions::of(of_leaf(leaf), &photons)).collect();
-        let mut packed = vec![Packed::default(); leaves.len() * LEAF];
-        packed.par_chunks_mut(LEAF).zip(&leaves).for_each(|(packed, leaf)| {
-            for (packed, &index) in packed.iter_mut().zip(of_leaf(leaf)) {
-                *packed = Packed::new(&photons[index as usize], index as usize);
-            }
-        });
-        let normals =
-            packed.chunks(LEAF).zip(&leaves).map(|(packed, leaf)| common_normal(&packed[..leaf.len()]));
+        let (order, buckets) = partition(&photons);
+        let leaves = buckets.iter().map(|len| len.div_ceil(LEAF)).sum();
+        let mut positions = vec![Positions::NONE; leaves];
+        let mut packed = vec![Packed::default(); leaves * LEAF];
+        let mut work = Vec::with_capacity(buckets.len());
+        let (mut o, mut at, mut rest) = (&order[..], &mut positions[..], &mut packed[..]);
+        for len in buckets {
+            let leaves = len.div_ceil(LEAF);
+            work.push((
+                o.split_off(..len).expect("a bucket's photons"),
+                at.split_off_mut(..leaves).expect("its leaves"),
+                rest.split_off_mut(..leaves * LEAF).expect("and their places"),
+            ));
+        }
+        work.into_par_iter().for_each(|(order, positions, packed)| fill(&photons, order, positions, packed));
+        let counts = packed.chunks(LEAF).zip(&positions).map(|(packed, at)| (packed, at.count()));
+        let (normals, bounds) = counts
+            .zip(&positions)
+            .map(|((packed, n), at)| (common_normal(&packed[..n]), at.bounds(n)))
+            .unzip();
         PhotonMap {
-            normals: normals.collect(),
-            boxes: Boxes::new(leaves.iter().zip(&positions).map(|(leaf, p)| p.bounds(leaf.len())).collect()),
+            normals,
+            boxes: Boxes::new(bounds),
             positions,
             packed,
             count: photons.len(),
@@ -143,8 +154,8 @@ fn turned(p: Vec3) -> [f32; 3] {
     [2.0 * p.x - p.y + 2.0 * p.z, 2.0 * p.x + 2.0 * p.y - p.z, 2.0 * p.y + 2.0 * p.z - p.x]
 }
 
-/// Photons in the order of a kd-tree's leaves, and each leaf's range of them: 1 to [`LEAF`].
-fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<Range<usize>>) {
+/// Photons in the order of a kd-tree's buckets, and how many each bucket has.
+fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<usize>) {
     if photons.is_empty() {
         return (Vec::new(), Vec::new());
     }
@@ -153,34 +164,43 @@ fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<Range<usize>>) {
         .with_parallel_construction_threshold(WORTH_A_THREAD)
         .build_from_slice(&points)
         .expect("coordinates are finite, and photons fewer than 2^32");
-    let mut order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
-    let (mut leaves, mut buckets) = (Vec::new(), Vec::new());
-    let (mut start, mut rest) = (0, &mut order[..]);
-    for bucket in 0..tree.leaf_count() {
-        let len = LeafStrategy::<f32, u32, Eytzinger, 3, BUCKET>::leaf_len(tree.leaves(), bucket);
-        let (first, others) = rest.split_at_mut(len);
-        buckets.push(first);
-        rest = others;
-        leaves.extend((0..len).step_by(LEAF).map(|at| start + at..start + len.min(at + LEAF)));
-        start += len;
+    let order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
+    let len = |bucket| LeafStrategy::<f32, u32, Eytzinger, 3, BUCKET>::leaf_len(tree.leaves(), bucket);
+    (order, (0..tree.leaf_count()).map(len).collect())
+}
+
+/// Divides a bucket's photons into leaves, all full but the last. They lie anywhere in memory, and are fetched once.
+fn fill(photons: &[Photon], order: &[u32], positions: &mut [Positions], packed: &mut [Packed]) {
+    let mut places: Vec<Place> =
+        order.iter().map(|&index| Place { position: photons[index as usize].position, index }).collect();
+    divide(&mut places);
+    for (leaf, at) in places.chunks(LEAF).zip(positions) {
+        *at = Positions::of(leaf);
     }
-    buckets.into_par_iter().for_each(|bucket| divide(bucket, photons));
-    (order, leaves)
+    for (place, packed) in places.iter().zip(packed) {
+        *packed = Packed::new(&photons[place.index as usize], place.index as usize);
+    }
+}
+
+/// A photon's position, and its place among all.
+#[derive(Clone, Copy)]
+struct Place {
+    position: Vec3,
+    index: u32,
 }
 
 /// Orders photons so that each [`LEAF`] of them in turn lie together, by planes across the longest
 /// side of their box, which leave whole leaves on the lower side.
-fn divide(indices: &mut [u32], photons: &[Photon]) {
-    if indices.len() <= LEAF {
+fn divide(places: &mut [Place]) {
+    if places.len() <= LEAF {
         return;
     }
-    let position = |index: u32| photons[index as usize].position;
-    let box_of_all = indices.iter().fold(Bounds::EMPTY, |bounds, &index| bounds.with(position(index)));
+    let box_of_all = places.iter().fold(Bounds::EMPTY, |bounds, place| bounds.with(place.position));
     let axis = (box_of_all.hi - box_of_all.lo).max_position();
-    let lower = indices.len().div_ceil(2 * LEAF) * LEAF;
-    let key = |index: u32| position(index)[axis];
-    indices.select_nth_unstable_by(lower, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
-    let (lower, upper) = indices.split_at_mut(lower);
-    divide(lower, photons);
-    divide(upper, photons);
+    let lower = places.len().div_ceil(2 * LEAF) * LEAF;
+    let key = |place: &Place| place.position[axis];
+    places.select_nth_unstable_by(lower, |a, b| key(a).total_cmp(&key(b)).then(a.index.cmp(&b.index)));
+    let (lower, upper) = places.split_at_mut(lower);
+    divide(lower);
+    divide(upper);
 }

@@ -52,7 +52,11 @@ pub fn pack_direction(d: Vec3) -> u32 {
     let [x, y, z] = (d / (d.x.abs() + d.y.abs() + d.z.abs())).to_array();
     let sign = |v: f32| if v < 0.0 { -1.0 } else { 1.0 };
     let (u, v) = if z < 0.0 { ((1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y)) } else { (x, y) };
-    let bits = |v: f32| u32::from((v * LARGEST).round() as i16 as u16);
+    // To the nearest, halves away from 0: exact in double precision.
+    let bits = |v: f32| {
+        let v = f64::from(v * LARGEST);
+        u32::from((v + 0.5f64.copysign(v)) as i16 as u16)
+    };
     bits(u) | bits(v) << 16
 }
 
@@ -84,8 +88,9 @@ fn pack_power(power: Vec3, index: u64) -> ([u16; 3], u16) {
     let step = f64::from(power_of_two(exponent));
     let mantissa = |channel: usize| {
         let exact = f64::from(power[channel]) / step;
-        let up = random::unit(random::combine(index, channel as u64)) < exact.fract();
-        (exact.floor() + f64::from(u8::from(up))) as u16
+        let whole = exact as u32;
+        let up = random::unit(random::combine(index, channel as u64)) < exact - f64::from(whole);
+        (whole + u32::from(up)) as u16
     };
     ([mantissa(0), mantissa(1), mantissa(2)], (exponent + 127) as u16)
 }
