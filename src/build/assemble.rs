@@ -67,7 +67,8 @@ pub(super) fn assemble(
         .iter()
         .filter_map(|&i| {
             let (ior, absorption) = inside(&placed.instances[i as usize], &placed, &surfaces.materials)?;
-            Some(Medium { instance: i, ior, absorption, error: precision.of(&placed.instances[i as usize]) })
+            let error = precision.of(&placed.instances[i as usize]);
+            Some(Medium { instance: i, ior, absorption, error, bounds: all_bounds[i as usize] })
         })
         .collect();
     let sights = Sights::new(&placed.instances, &placed.geometries, &bounds, &all_bounds, &lights.emitters);
@@ -87,6 +88,7 @@ pub(super) fn assemble(
         environment: lights.environment,
         environment_visible: lights.environment_visible,
         spectrum: media.iter().any(|m| m.ior.disperses()).then(Spectrum::new),
+        media_error: media.iter().map(|medium| medium.error).fold(0.0, f64::max),
         media,
         contacts,
         coincidence,

@@ -4,7 +4,7 @@
 //! meets. Here the rule decides: a ray that leaves the glass meets its interface first and then, across
 //! a gap of no width, what is opaque; a ray that would enter the glass there meets what is opaque.
 
-use super::media::MediaSet;
+use super::media::{MediaSet, Medium};
 use super::precision::Precision;
 use super::surface::Surface;
 use super::world::{Geometry, Hit, Instance, World};
@@ -78,11 +78,17 @@ pub struct Met {
     pub behind: Option<Hit>,
 }
 
+/// How light leaves a lamp that is flush with glass.
+pub struct Departure {
+    pub ray: Ray,
+    pub media: MediaSet,
+    pub entry: Option<Box<Entry>>,
+}
+
 /// A surface that light crosses where it starts.
 pub struct Entry {
     pub surface: Surface,
-    /// The media on its near and its far side.
-    pub before: MediaSet,
+    /// The media on its far side.
     pub after: MediaSet,
 }
 
@@ -116,32 +122,47 @@ impl World {
         })
     }
 
-    /// What light crosses first that a lamp sends into glass which is flush with it: the lamp is across a gap of no
-    /// width, so that the light meets the glass's surface. `ray` starts on the lamp, at a point known to within
-    /// `p_error` metres on a face of normal `ng`, or beyond it in `media`. `None` where there is no such surface.
-    pub fn entered(&self, ray: &Ray, p_error: f64, ng: DVec3, media: &MediaSet) -> Option<Entry> {
+    /// How light leaves a lamp that may be flush with glass: the lamp is across a gap of no width, so that light which
+    /// goes into the glass meets its surface first, and light which goes the other way is outside. `ray` starts on
+    /// the lamp, at a point known to within `p_error` metres on a face of normal `ng`; beyond it are `media`. `None`
+    /// where no glass is flush with the lamp there.
+    pub fn departure(&self, ray: &Ray, p_error: f64, ng: DVec3, media: &MediaSet) -> Option<Departure> {
         let slant = slant(ray, ng);
-        let enters = |rank: u32| {
-            let medium = &self.media[rank as usize - 1];
+        let flush_with = |medium: &Medium| {
             let band = BAND * (p_error + medium.error) * slant;
             let probe = Ray { origin: ray.at(-band), dir: ray.dir };
             let hit = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
             let surface = self.surface(&probe, &hit);
             let apart = BAND * (p_error + surface.p_error) * slant;
-            let flush = (surface.t - band).abs() <= apart && surface.ng.dot(ray.dir) < 0.0;
-            // Beyond both, so that what goes on does not meet the lamp.
-            flush.then(|| surface.started_at(ray.at(apart)))
+            // Beyond both, so that what goes on meets neither the lamp nor the glass again.
+            ((surface.t - band).abs() <= apart).then(|| surface.started_at(ray.at(apart)))
         };
-        let flush: Vec<(u32, Surface)> = (1..=self.media.len() as u32)
-            .filter(|&rank| rank >= media.top())
-            .filter_map(|rank| Some((rank, enters(rank)?)))
-            .collect();
+        let reach = DVec3::splat(BAND * (p_error + self.media_error) * slant);
+        let mut all: Vec<(u32, Surface)> = Vec::new();
+        self.tree.any_in(&Aabb::from_f64(ray.origin - reach, ray.origin + reach), |i| {
+            let rank = self.instances[i as usize].rank;
+            if rank != 0
+                && let Some(surface) = flush_with(&self.media[rank as usize - 1])
+            {
+                all.push((rank, surface));
+            }
+            false
+        });
+        let mut before = *media;
+        for (rank, _) in &all {
+            before = before.crossed(*rank, false).unwrap_or(before);
+        }
+        let distance = |surface: &Surface| surface.p.distance_squared(ray.origin);
+        let farthest = all.iter().map(|(_, s)| s).max_by(|a, b| distance(a).total_cmp(&distance(b)))?.p;
+        let mut flush: Vec<_> = all.into_iter().filter(|(_, s)| s.ng.dot(ray.dir) < 0.0).collect();
+        flush.sort_by_key(|(rank, _)| *rank);
+        let after = flush.iter().fold(before, |set, (rank, _)| set.crossed(*rank, true).unwrap_or(set));
+        let ray = Ray { origin: farthest, ..*ray };
+        let entered = flush.last().filter(|(rank, _)| *rank == after.top());
         // Beneath a medium that counts more, a surface is none.
-        let &(_, surface) = flush.last()?;
-        let set = |set: MediaSet, inwards| {
-            flush.iter().fold(set, |set, &(rank, _)| set.crossed(rank, inwards).unwrap_or(set))
-        };
-        Some(Entry { surface, before: set(*media, false), after: set(*media, true) })
+        let Some(&(_, surface)) = entered else { return Some(Departure { ray, media: after, entry: None }) };
+        let entry = Entry { surface: surface.started_at(farthest), after };
+        Some(Departure { ray, media: before, entry: Some(Box::new(entry)) })
     }
 
     /// Whether glass that the ray starts in is flush with the lamp in which it ends at t = 1, at a point known to

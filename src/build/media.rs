@@ -7,7 +7,7 @@
 //! idempotent, so that a surface met twice does no harm.
 
 use super::world::World;
-use crate::math::{Color, DVec3, Ray};
+use crate::math::{Aabb, Color, DVec3, Ray};
 use crate::optics::Cauchy;
 
 /// The inside of a transmissive instance.
@@ -19,6 +19,17 @@ pub struct Medium {
     pub absorption: Color,
     /// Bound of the `p_error` of its surface, metres.
     pub error: f64,
+    /// Of the placed surface.
+    pub bounds: Aabb,
+}
+
+impl Medium {
+    /// Whether a point is within its bounds, or no farther from them than this along any axis.
+    #[inline]
+    pub(super) fn near(&self, p: DVec3, distance: f64) -> bool {
+        let (min, max) = (self.bounds.min.as_dvec3() - distance, self.bounds.max.as_dvec3() + distance);
+        p.cmpge(min).all() && p.cmple(max).all()
+    }
 }
 
 /// Transmissive objects that may overlap at one point.
@@ -112,6 +123,9 @@ impl World {
             [DVec3::new(0.36, 0.48, 0.8), DVec3::new(-0.64, 0.6, 0.48), DVec3::new(0.48, -0.8, -0.36)];
         let mut set = MediaSet::default();
         for (i, medium) in self.media.iter().enumerate() {
+            if !medium.near(p, medium.error) {
+                continue;
+            }
             let votes = directions.iter().filter(|&&dir| self.leaves(medium.instance, p, dir)).count();
             if votes >= 2 {
                 set = set.crossed(i as u32 + 1, true).unwrap_or(set);
@@ -122,12 +136,7 @@ impl World {
 
     /// Whether the bounds of a transmissive object come within `distance` of a point.
     pub fn has_medium_near(&self, p: DVec3, distance: f64) -> bool {
-        self.media.iter().any(|medium| {
-            let instance = &self.instances[medium.instance as usize];
-            let bounds = World::placed_bounds(self.geometry(medium.instance), &instance.placement);
-            let (min, max) = (bounds.min.as_dvec3() - distance, bounds.max.as_dvec3() + distance);
-            p.cmpge(min).all() && p.cmple(max).all()
-        })
+        self.media.iter().any(|medium| medium.near(p, distance))
     }
 
     fn leaves(&self, instance: u32, p: DVec3, dir: DVec3) -> bool {

@@ -32,7 +32,7 @@ mod world;
 use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
-pub use contact::{Contacts, Entry, Met};
+pub use contact::{Contacts, Departure, Entry, Met};
 pub use crossing::{Colour, Crossing};
 pub use examine::examine;
 pub use footprint::Cone;

@@ -8,8 +8,8 @@ use super::surface::Surface;
 use super::world::{Geometry, Hit, Instance, World};
 use crate::math::{Aabb, DVec3, Ray, Vec3, round_down, round_up};
 
-/// Faces that are looked through from behind at most, on the way to a place.
-const MOST_BACKS: u32 = 4;
+/// Faces one over the other, at most, of which one may be a place.
+const MOST_FACES: u32 = 8;
 
 /// Instances that may cut places off from a point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,6 +48,8 @@ impl World {
         let half = (DVec3::ONE - n * n).max(DVec3::ZERO);
         let half = DVec3::new(half.x.sqrt(), half.y.sqrt(), half.z.sqrt()) * radius + n.abs() * height;
         let disc = [surface.p - half, surface.p + half];
+        // From outside, nothing of a shape lies above its own face: all of them are convex.
+        let within_own = surface.ng.dot(n) < 0.0;
         let mut looks = 0;
         let within = |i: u32| {
             let instance = &self.instances[i as usize];
@@ -56,7 +58,7 @@ impl World {
                 return false;
             }
             let Geometry::Mesh(mesh) = &self.geometries[instance.geometry as usize] else {
-                return !own;
+                return !own || (within_own && self.clearance(surface) < radius);
             };
             let across = |corners: [Vec3; 3]| {
                 let [a, b, c] = corners.map(|v| instance.placement.vector(v.as_dvec3()));
@@ -106,26 +108,19 @@ impl World {
         met.then_some(best)
     }
 
-    /// The first surface on a ray that is not clear and not met from within a solid, up to t_max. What is seen on
-    /// the inner side of `own`'s object is what `own` goes on as, if it is itself met there: `within`.
-    pub fn first_front(&self, ray: &Ray, t_max: f64, own: &Surface, within: bool) -> Option<Surface> {
+    /// Whether one of the surfaces on a ray up to t_max that are not clear, from either side, is such a one.
+    pub fn any_face(&self, ray: &Ray, t_max: f64, mut is_such: impl FnMut(&Surface) -> bool) -> bool {
         let mut start = 0.0;
-        for _ in 0..MOST_BACKS {
+        for _ in 0..MOST_FACES {
             let rest = Ray { origin: ray.at(start), dir: ray.dir };
-            let hit = self.nearest_unclear(&rest, t_max - start)?;
+            let Some(hit) = self.nearest_unclear(&rest, t_max - start) else { return false };
             let surface = self.surface(&rest, &hit);
-            let behind = ray.dir.dot(surface.ng) > 0.0 && !self.is_flat(hit.instance);
-            if !behind || (within && hit.instance == own.instance) {
-                return Some(surface);
+            if is_such(&surface) {
+                return true;
             }
             start += surface.t + 4.0 * surface.p_error / ray.dir.dot(surface.ng).abs().max(1e-3);
         }
-        None
-    }
-
-    /// Whether neither side of an instance is its inner one.
-    fn is_flat(&self, instance: u32) -> bool {
-        matches!(self.geometry(instance), Geometry::Shape(shape) if !shape.closed())
+        false
     }
 }
 

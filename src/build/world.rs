@@ -38,6 +38,8 @@ pub struct World {
     pub environment_visible: bool,
     /// Insides of transmissive instances, by rank: a later one wins where several overlap.
     pub media: Vec<Medium>,
+    /// The largest of the errors of their surfaces, metres.
+    pub media_error: f64,
     /// Wavelengths, where a medium disperses.
     pub spectrum: Option<Spectrum>,
     /// What is opaque at the media's surfaces, by rank.

@@ -102,7 +102,6 @@ impl Walk<'_> {
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
         let Start { ray, power, media, falloff, emitter, within, entry } = start;
-        let media = entry.as_ref().map_or(media, |entry| entry.before);
         let mut entry = entry;
         let mut path = Path {
             ray,

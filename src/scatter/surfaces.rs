@@ -160,7 +160,10 @@ impl Source {
         let mut start = self.start(world, Ray::leaving(p, FLUSH * p_error, ng, dir), power);
         // What shines and transmits has its light from its own surface, across no gap.
         if self.media.is_none() && !material.transmits() {
-            start.entry = world.entered(&Ray { origin: p, dir }, p_error, ng, &start.media).map(Box::new);
+            let flush = world.departure(&Ray { origin: p, dir }, p_error, ng, &start.media);
+            if let Some(departure) = flush {
+                (start.ray, start.media, start.entry) = (departure.ray, departure.media, departure.entry);
+            }
         }
         Some(start)
     }

@@ -6,7 +6,7 @@
 //! cuts off is no part of the ground, and photons there are none of the estimate's, whichever surface goes on
 //! behind it: the two have to agree about every place, or the estimate has a bias where light is even.
 
-use crate::build::{Geometry, Obstacles, Shading, Surface, World};
+use crate::build::{Obstacles, Shading, Surface, World};
 use crate::index::{Kernel, apart_squared};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Frame, Ray, Vec3};
@@ -82,10 +82,11 @@ impl<'a> Ground<'a> {
             let (sin, cos) = libm::sincos(TAU * v);
             self.has((frame.s * cos + frame.t * sin) * (kernel.distance(u) * self.radius))
         };
-        let trials: u32 = (0..COUNTS)
-            .map(|count| (1..=MOST_TRIALS).find(|&trial| on_ground(count, trial)).unwrap_or(MOST_TRIALS))
-            .sum();
-        (trials as f32 / COUNTS as f32, trials)
+        let counts = [0, 1].map(|count| (1..=MOST_TRIALS).find(|&trial| on_ground(count, trial)));
+        let places = counts.iter().map(|count| count.unwrap_or(MOST_TRIALS)).sum();
+        // What is not found is taken for noise, and has no great factor for it.
+        let sum: u32 = counts.iter().map(|count| count.unwrap_or(1)).sum();
+        (sum as f32 / COUNTS as f32, places)
     }
 
     /// Whether the ground has a place over or under this point of the tangent plane.
@@ -93,25 +94,28 @@ impl<'a> Ground<'a> {
         let Ground { world, surface, n, radius, .. } = *self;
         let above = ABOVE * radius + surface.p_error;
         let ray = Ray { origin: surface.p + away + n * above, dir: -n };
-        let within = surface.ng.dot(n) < 0.0;
-        let Some(place) = world.first_front(&ray, above + BELOW * radius, surface, within) else {
-            return false;
-        };
-        let up = if place.ng.dot(n) < 0.0 { -place.ng } else { place.ng };
-        let offset = (place.p - surface.p).as_vec3();
-        let apart = apart_squared(Vec3::ZERO, n.as_vec3(), offset, up.as_vec3());
-        let near = apart.is_some_and(|e2| self.is_rough(&place) || f64::from(e2) <= radius * radius);
-        near && self.keeps_photons(&place) && self.reaches(place.p)
+        world.any_face(&ray, above + BELOW * radius, |place| {
+            let up = if place.ng.dot(n) < 0.0 { -place.ng } else { place.ng };
+            let offset = (place.p - surface.p).as_vec3();
+            let apart = apart_squared(Vec3::ZERO, n.as_vec3(), offset, up.as_vec3());
+            let rough =
+                world.is_roughness(place.instance, radius) || world.is_roughness(surface.instance, radius);
+            apart.is_some_and(|e2| {
+                (rough && (place.p - surface.p).dot(n).abs() <= ABOVE * radius)
+                    || f64::from(e2) <= radius * radius
+            }) && self.keeps_photons(place)
+                && self.is_open(place)
+                && self.reaches(place.p)
+        })
     }
 
-    /// Whether a place lies where the ground is rough beside the disc, or may be: photons that lie too high or too
-    /// low to count are then by chance as many as others that do.
-    fn is_rough(&self, place: &Surface) -> bool {
-        let Ground { world, surface, radius, .. } = *self;
-        let folded = || matches!(world.geometry(surface.instance), Geometry::Mesh(_));
-        (place.instance == surface.instance && folded())
-            || world.is_roughness(place.instance, radius)
-            || world.is_roughness(surface.instance, radius)
+    /// Whether nothing lies on a place, such as a mat that is lower than the sight.
+    fn is_open(&self, place: &Surface) -> bool {
+        let from = 2.0 * place.p_error;
+        let on = |height| place.p + self.n * height;
+        !self.is_crowded()
+            || from >= self.sight
+            || !self.world.cut_off(&self.obstacles, on(from), on(self.sight))
     }
 
     fn keeps_photons(&self, place: &Surface) -> bool {

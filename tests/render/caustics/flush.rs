@@ -31,6 +31,7 @@ fn floor(folder: &Path, lights: &str, objects: &[String]) -> Shot {
         photons: progressive(count: 60000), render: (max_depth: 64),
         materials: {{
             "white": (diffuse: 1), "glass": (transmission: 1), "black": (diffuse: 0), "lamp": (diffuse: 0, emission: 1),
+            "water 1": (transmission: 1, ior: "water", priority: 1), "water -1": (transmission: 1, ior: "water", priority: -1),
         }},
         lights: {{ {lights} }},
         objects: [(shape: quad(size: (1, 1)), material: "white"), {}])"#,
@@ -70,6 +71,22 @@ fn a_lamp_flush_with_glass_shines_through_its_face_as_one_just_above_it() {
     // What is immersed sends only the part of its light out that meets the faces within the critical angle.
     let immersed = lit("quad", 0.499);
     assert!(immersed < 0.55 * above, "{immersed}, and {above} from above");
+}
+
+/// Water in glass, both flush with the lamp: the light crosses the face of what counts more.
+#[test]
+fn a_lamp_flush_with_two_media_shines_through_the_upper_one() {
+    let dir = folder();
+    for priority in [1, -1] {
+        let lit = |y: f64| {
+            let text = format!(
+                r#"(shape: box(size: (0.8, 0.08, 0.8), center: (0, 0.46, 0)), material: "water {priority}")"#
+            );
+            floor(dir.path(), "", &[GLASS.to_owned(), text, quad(y, "lamp")]).render().mean()
+        };
+        let (flush, above) = (lit(0.5), lit(0.501));
+        assert!((flush / above - 1.0).abs() < 0.03, "priority {priority}: {flush}, and {above} from above");
+    }
 }
 
 /// A white plate in the middle of glass on which a lamp lies: light reaches it through the face of the glass only.

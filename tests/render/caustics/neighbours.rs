@@ -83,6 +83,13 @@ pub(crate) fn neighbourhoods(folder: &Path) -> Vec<(&'static str, Vec<String>)> 
     let standing = || box_of_corners([0.0, 0.0, -1.5], [0.6, 2.0, 1.5]);
     write("floor.obj", ground());
     write("floor_down.obj", ground().reversed());
+    let half = |from: f64| {
+        let mut obj = ground().reversed();
+        obj.vertices.iter_mut().for_each(|v| v.x = 0.5 * v.x + from);
+        obj
+    };
+    write("left_down.obj", half(-2.5));
+    write("right_down.obj", half(2.5));
     write("block.obj", standing());
     write("sunk.obj", box_of_corners([0.0, -1.0, -1.5], [0.6, 2.0, 1.5]));
     write("one.obj", ground().with(standing()));
@@ -112,6 +119,10 @@ pub(crate) fn neighbourhoods(folder: &Path) -> Vec<(&'static str, Vec<String>)> 
             "glass as a tile",
             all(&[LEFT, r#"(shape: box(size: (5, 0.1, 10), center: (2.5, -0.05, 0)), material: "glass")"#]),
         ),
+        (
+            "halves of a floor with their inner sides up",
+            all(&[&mesh("left_down.obj", "white"), &mesh("right_down.obj", "white")]),
+        ),
         ("a mirror that lies on the floor", all(&[FLOOR, &right("mirror", 1e-5)])),
     ]
 }
@@ -127,6 +138,29 @@ fn light_is_even_up_to_what_stands_on_a_floor_or_lies_in_it() {
         let (before, last) = (columns[WIDTH / 2 - 2], columns[WIDTH / 2 - 1]);
         println!("{name}: {before:.3} {last:.3}");
         assert!((before - 1.0).abs() < 0.05 && (last - 1.0).abs() < 0.05, "{name}: {before} {last}");
+    }
+}
+
+/// Light that comes in flat under a roof lower than the radius, over sin·T/π: what lies above the gap counts neither
+/// for nor against the ground in it.
+#[test]
+fn light_in_a_gap_is_no_brighter_for_the_roof_above_it() {
+    let (x, y): (f64, f64) = (1.0, -0.05);
+    for photons in ["classic(count: 100000, k: 60)", "progressive(count: 100000)"] {
+        let picture = shot(format!(
+            r#"(camera: (eye: (-1.2, 0.04, 0), target: (0.5, 0, 0), up: (0, 1, 0), fov_deg: 20), image: (width: 16, height: 16),
+            photons: {photons},
+            materials: {{ "white": (diffuse: 1), "glass": (transmission: 1), "black": (diffuse: 0) }},
+            lights: {{ "sun": directional(direction: ({x}, {y}, 0), irradiance: 1) }},
+            objects: [{FLOOR}, (shape: quad(size: (4, 10)), material: "black", transform: [translate((2, 0.05, 0))]),
+                (shape: box(size: (0.05, 4, 4), center: (-1.5, 0, 0)), material: "glass")])"#
+        ))
+        .aovs(&[Aov::Caustic])
+        .passes(4)
+        .render();
+        let even = -y / x.hypot(y) * 0.923_077 / PI;
+        let brightest = picture.channel("caustic", "R").iter().fold(0f32, |most, &v| most.max(v));
+        assert!(f64::from(brightest) < 1.3 * even, "{photons}: {} of the truth", f64::from(brightest) / even);
     }
 }
 
