@@ -12,7 +12,6 @@ use crate::build::{Shading, Surface};
 use crate::index::{Caustics, Gathered, Radius, Reach};
 use crate::math::{Color, Vec3};
 use ground::Ground;
-use std::cell::OnceCell;
 use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::f64::consts::TAU;
 
@@ -70,32 +69,28 @@ impl Tracer<'_> {
         let probing = tally.probing;
         let mut estimate = |radius: Radius, dimension: u64| {
             let around = |radius| Ground::around(self.world, surface, shading, radius);
-            let ground = OnceCell::new();
-            let gathered = match radius {
-                Radius::Fixed(radius) => {
-                    let holds = |offset| {
-                        ground.get_or_init(|| around(radius)).as_ref().is_none_or(|g| g.holds(offset))
-                    };
-                    caustics.gather(p, ng, Radius::Fixed(radius), holds, brdf)
-                }
-                Radius::Nearest { .. } => {
-                    // The ground is looked at when the photons have chosen the radius.
-                    let all = caustics.gather(p, ng, radius, |_| true, brdf);
-                    match ground.get_or_init(|| around(all.radius)) {
-                        Some(ground) if ground.is_crowded() => {
-                            caustics.gather(p, ng, radius, |offset| ground.holds(offset), brdf)
-                        }
-                        _ => all,
+            let all = || caustics.gather(p, ng, radius, |_| true, brdf);
+            let (mut gathered, ground) = match radius {
+                Radius::Fixed(radius) => match around(radius) {
+                    Some(ground) if ground.is_crowded() => {
+                        (Gathered { radius, ..Gathered::default() }, Some(ground))
                     }
+                    ground => (all(), ground),
+                },
+                // The ground is looked at when the photons have chosen the radius.
+                Radius::Nearest { .. } => {
+                    let all = all();
+                    (all, around(all.radius))
                 }
             };
+            let Some(ground) = ground else { return Estimate { gathered, correction: 1.0 } };
+            if ground.is_crowded() {
+                gathered = caustics.gather(p, ng, radius, |offset| ground.holds(offset), brdf);
+            }
             // A probe looks at what is just beyond the radius in any case, or its mean would be off.
             if gathered.photons == 0 && !probing {
                 return Estimate { gathered, correction: 1.0 };
             }
-            let Some(ground) = ground.get_or_init(|| around(gathered.radius)) else {
-                return Estimate { gathered, correction: 1.0 };
-            };
             let sequence = branch.sequence.dimension(dimension);
             let (correction, places) = ground.correction(caustics.kernel, sequence);
             tally.rays.probe += u64::from(places);
