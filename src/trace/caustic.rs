@@ -12,6 +12,7 @@ use crate::build::{Shading, Surface};
 use crate::index::{Caustics, Gathered, Radius, Reach};
 use crate::math::{Color, Vec3};
 use ground::Ground;
+use std::cell::Cell;
 use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::f64::consts::TAU;
 
@@ -70,11 +71,10 @@ impl Tracer<'_> {
         let mut estimate = |radius: Radius, dimension: u64| {
             let around = |radius| Ground::around(self.world, surface, shading, radius);
             let all = || caustics.gather(p, ng, radius, |_| true, brdf);
-            let (mut gathered, ground) = match radius {
+            let crowded = |ground: &Option<Ground>| ground.as_ref().is_some_and(Ground::is_crowded);
+            let (mut gathered, mut ground) = match radius {
                 Radius::Fixed(radius) => match around(radius) {
-                    Some(ground) if ground.is_crowded() => {
-                        (Gathered { radius, ..Gathered::default() }, Some(ground))
-                    }
+                    ground if crowded(&ground) => (Gathered { radius, ..Gathered::default() }, ground),
                     ground => (all(), ground),
                 },
                 // The ground is looked at when the photons have chosen the radius.
@@ -83,17 +83,34 @@ impl Tracer<'_> {
                     (all, around(all.radius))
                 }
             };
-            let Some(ground) = ground else { return Estimate { gathered, correction: 1.0 } };
-            if ground.is_crowded() {
-                gathered = caustics.gather(p, ng, radius, |offset| ground.holds(offset), brdf);
+            let sequence = branch.sequence.dimension(dimension);
+            let mut correct = |ground: &Ground| {
+                let (correction, places) = ground.correction(caustics.kernel, sequence);
+                tally.rays.probe += u64::from(places);
+                correction
+            };
+            if let Some(among) = ground.take_if(|ground| ground.is_crowded()) {
+                let hidden = Cell::new(false);
+                let holds = |offset| {
+                    let holds = among.holds(offset);
+                    hidden.set(hidden.get() || !holds);
+                    holds
+                };
+                gathered = caustics.gather(p, ng, radius, holds, brdf);
+                if gathered.photons == 0 && !hidden.get() && !probing {
+                    return Estimate { gathered, correction: 1.0 };
+                }
+                if let Some(correction) = correct(&among) {
+                    return Estimate { gathered, correction };
+                }
+                // Hardly any ground: what is in the way is roughness of it.
+                (gathered, ground) = (all(), Some(among.cleared()));
             }
             // A probe looks at what is just beyond the radius in any case, or its mean would be off.
-            if gathered.photons == 0 && !probing {
-                return Estimate { gathered, correction: 1.0 };
-            }
-            let sequence = branch.sequence.dimension(dimension);
-            let (correction, places) = ground.correction(caustics.kernel, sequence);
-            tally.rays.probe += u64::from(places);
+            let correction = match ground {
+                Some(ground) if gathered.photons > 0 || probing => correct(&ground).unwrap_or(1.0),
+                _ => 1.0,
+            };
             Estimate { gathered, correction }
         };
         let Estimate { gathered, correction } = estimate(caustics.radius(p, ng, least), COVERAGE);

@@ -16,6 +16,8 @@ use std::f64::consts::TAU;
 /// than that is taken for noise.
 const COUNTS: u32 = 2;
 const MOST_TRIALS: u32 = 32;
+/// The same where things are in the way: a corner of three walls is an eighth of the disc, and less is clutter.
+const MOST_TRIALS_AMONG: u32 = 16;
 
 /// Heights over the tangent plane in radii: where what lies at a place is looked for from and how far down, more
 /// than a surface bends whose photons count; and that of the sight from place to place.
@@ -72,21 +74,30 @@ impl<'a> Ground<'a> {
         !self.is_crowded() || !self.world.cut_off(&self.obstacles, self.surface.p + up, place + up)
     }
 
+    /// The same ground with nothing in the way.
+    pub fn cleared(self) -> Ground<'a> {
+        Ground { obstacles: Obstacles::default(), ..self }
+    }
+
     /// What the estimate is multiplied by: the inverse of the kernel's integral over the ground. As many places as
     /// are drawn from the kernel until one lies on the ground are that inverse in the mean, which leaves no bias.
-    /// With the number of places.
-    pub fn correction(&self, kernel: Kernel, sequence: Sequence) -> (f32, u32) {
+    /// With the number of places. None where none of them lies on the ground.
+    pub fn correction(&self, kernel: Kernel, sequence: Sequence) -> (Option<f32>, u32) {
         let frame = Frame::around(self.n);
         let on_ground = |count: u32, trial: u32| {
             let [u, v] = sequence.dimension(u64::from(trial)).split(count, COUNTS).pair();
             let (sin, cos) = libm::sincos(TAU * v);
             self.has((frame.s * cos + frame.t * sin) * (kernel.distance(u) * self.radius))
         };
-        let counts = [0, 1].map(|count| (1..=MOST_TRIALS).find(|&trial| on_ground(count, trial)));
-        let places = counts.iter().map(|count| count.unwrap_or(MOST_TRIALS)).sum();
-        // What is not found is taken for noise, and has no great factor for it.
-        let sum: u32 = counts.iter().map(|count| count.unwrap_or(1)).sum();
-        (sum as f32 / COUNTS as f32, places)
+        let most = if self.is_crowded() { MOST_TRIALS_AMONG } else { MOST_TRIALS };
+        let mut places = 0;
+        for count in 0..COUNTS {
+            let Some(found) = (1..=most).find(|&trial| on_ground(count, trial)) else {
+                return (None, places + most);
+            };
+            places += found;
+        }
+        (Some(places as f32 / COUNTS as f32), places)
     }
 
     /// Whether the ground has a place over or under this point of the tangent plane.
