@@ -1,7 +1,6 @@
 //! Rays a second of photon tracing on one thread, beside plain nearest-hit queries in the same world.
 //!
-//! The plain queries are of the same kind of rays: recorded from paths that leave the lamp for the glass and
-//! go on by Fresnel's chance until they meet what is opaque. A photon's ray costs such a query and what
+//! The plain queries are of the photons' own rays, in their order. A photon's ray costs such a query and what
 //! happens at its end: the surface, Snell and Fresnel, the draw, the ledger, and for the first ray the
 //! emission. The third rate is that of camera paths through the same glass, which have the same to do at the
 //! end of each ray, and shade besides: shadow rays are counted as rays. All take turns, block by block, and
@@ -11,11 +10,8 @@
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
-use terrarium::build::{Cone, Shading, World, build};
+use terrarium::build::build;
 use terrarium::description::{Loaded, load};
-use terrarium::math::random::{Counter, Stage};
-use terrarium::math::{DVec3, Health, Ray, sampling};
-use terrarium::optics::EmitterKind;
 use terrarium::plan::{Effect, Overrides, Plan, Request};
 use terrarium::render::{Options, Silent, render};
 use terrarium::scatter::Emission;
@@ -37,7 +33,7 @@ fn main() {
         let plan = Plan::new(scene_text, &Request::default()).expect("nothing is overridden");
         let world = build(scene_text, &plan).expect("the yardstick's scenes can be built").world;
         let emission = Emission::new(&world, &plan).expect("light reaches the glass");
-        let rays = photon_rays(&world, PHOTONS as usize);
+        let rays = emission.rays(&world, TURNS, PHOTONS);
         let (mut scattering, mut plain, mut counted, mut emitted) = (f64::INFINITY, f64::INFINITY, 0, 0);
         let mut camera = f64::INFINITY;
         for pass in 0..TURNS {
@@ -72,55 +68,4 @@ fn camera_path(loaded: &Loaded) -> f64 {
     let stats = render(loaded, &options, &Silent).expect("the yardstick's scenes can be rendered").stats;
     let traced = stats.stages.iter().find(|stage| stage.name == "trace").expect("a stage of every render");
     traced.seconds / stats.rays.total() as f64
-}
-
-/// The rays of paths from the first lamp to the first medium and on to what is opaque.
-fn photon_rays(world: &World, paths: usize) -> Vec<Ray> {
-    let mut random = Counter::new(1, Stage::Test, 0);
-    let (from, from_radius) = lamp(world);
-    let (to, to_radius) = ball(world, world.media[0].instance);
-    let mut rays = Vec::new();
-    for _ in 0..paths {
-        let origin = from + sampling::sphere(random.pair()) * from_radius;
-        let aim = to + sampling::sphere(random.pair()) * (to_radius * random.value().sqrt());
-        let dir = (aim - origin).normalize();
-        let mut ray = Ray { origin: origin + dir * (2.0 * from_radius), dir };
-        let mut media = world.media_at(ray.origin);
-        for _ in 0..16 {
-            rays.push(ray);
-            let Some(hit) = world.nearest(&ray, f64::INFINITY) else { break };
-            let surface = world.surface(&ray, &hit);
-            let shading = Shading::new(world, &surface, -ray.dir, &Cone { width: 0.0, spread: 0.0 });
-            let mut health = Health::default();
-            let Some(crossing) = world.crossing(&media, ray.dir, &surface, &shading, &mut health) else {
-                break;
-            };
-            let (eta, _) = world.relative_ior(&media, &crossing.after, None, || 0.5);
-            let interface = shading.interface(eta);
-            let through = (random.value() >= interface.reflectance)
-                .then(|| shading.refracted(eta, &interface, &mut health))
-                .flatten();
-            let dir = through.unwrap_or_else(|| shading.mirrored(&mut health));
-            ray = Ray::leaving(surface.p, crossing.tolerance, surface.ng, dir);
-            media = if through.is_some() { crossing.after } else { media };
-        }
-    }
-    rays
-}
-
-fn lamp(world: &World) -> (DVec3, f64) {
-    match world.emitters[0].kind {
-        EmitterKind::Point { position, .. } | EmitterKind::Spot { position, .. } => (position, 0.0),
-        EmitterKind::Shape { instance } | EmitterKind::Mesh { instance, .. } => ball(world, instance),
-        EmitterKind::Directional { .. } | EmitterKind::Environment => (DVec3::Y * 10.0, 0.0),
-    }
-}
-
-/// The middle of an instance, and half of its least extent that is not 0.
-fn ball(world: &World, instance: u32) -> (DVec3, f64) {
-    let bounds =
-        World::placed_bounds(world.geometry(instance), &world.instances[instance as usize].placement);
-    let extent = bounds.extent();
-    let least = extent.to_array().into_iter().filter(|e| *e > 1e-3).fold(f32::INFINITY, f32::min);
-    (bounds.centroid().as_dvec3(), 0.5 * f64::from(least))
 }

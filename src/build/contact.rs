@@ -10,7 +10,7 @@ use super::surface::Surface;
 use super::world::{Geometry, Hit, Instance, World};
 use crate::math::{Aabb, DVec3, Ray, robust, round_up};
 
-/// Opaque instances whose bounds meet those of a transmissive one.
+/// Opaque instances whose bounds meet those of a transmissive one, and do not lie deep in it.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     met: Opaque,
@@ -41,17 +41,19 @@ impl Contacts {
             .filter(|(i, instance)| instance.rank == 0 && bounds[*i as usize] != Aabb::EMPTY)
             .map(|(i, _)| i)
             .collect();
-        let mut error_of = |i: u32| precision.of(&instances[i as usize]);
         // A look at every pair would be felt.
         if ranked.len().saturating_mul(opaque.len()) > 4_000_000 {
-            let error = opaque.iter().map(|&i| error_of(i)).fold(0.0, f64::max);
+            let error = opaque.iter().map(|&i| precision.of(&instances[i as usize])).fold(0.0, f64::max);
             return vec![Contacts { met: Opaque::Many, error }; ranked.len()];
         }
         let of = |&glass: &u32| {
             let near = bounds[glass as usize];
-            let met: Vec<u32> =
-                opaque.iter().copied().filter(|&i| near.overlaps(&bounds[i as usize])).collect();
-            let error = met.iter().map(|&i| error_of(i)).fold(0.0, f64::max);
+            let meets = |&i: &u32| {
+                let other = &bounds[i as usize];
+                near.overlaps(other) && !precision.holds(&instances[glass as usize], other)
+            };
+            let met: Vec<u32> = opaque.iter().copied().filter(meets).collect();
+            let error = met.iter().map(|&i| precision.of(&instances[i as usize])).fold(0.0, f64::max);
             let few = || met.iter().map(|&i| (bounds[i as usize], i)).collect();
             Contacts { met: if met.len() > FEW { Opaque::Many } else { Opaque::Few(few()) }, error }
         };
@@ -63,12 +65,16 @@ impl Contacts {
     fn may_touch(&self, p: DVec3, reach: f64) -> bool {
         match &self.met {
             Opaque::Many => true,
-            Opaque::Few(few) => few.iter().any(|(bounds, _)| {
-                let (min, max) = (bounds.min.as_dvec3() - reach, bounds.max.as_dvec3() + reach);
-                (min.cmple(p) & p.cmple(max)).all()
-            }),
+            Opaque::Few(few) => few.iter().any(|(bounds, _)| within(bounds, p, reach)),
         }
     }
+}
+
+/// Whether a point is no farther than `reach` metres from a box along any axis.
+#[inline]
+fn within(bounds: &Aabb, p: DVec3, reach: f64) -> bool {
+    let (min, max) = (bounds.min.as_dvec3() - reach, bounds.max.as_dvec3() + reach);
+    (min.cmple(p) & p.cmple(max)).all()
 }
 
 /// What a ray meets where surfaces coincide, with their rounding decided.
@@ -110,7 +116,7 @@ impl World {
     /// The surface of a hit on glass, where something opaque lies in reach of rounding.
     #[inline(never)]
     fn touching(&self, ray: &Ray, media: &MediaSet, surface: &Surface, rank: u32, band: f64) -> Option<Met> {
-        let hit = self.opaque_within(ray, surface.t, band)?;
+        let hit = self.opaque_within(&self.contacts[rank as usize - 1], ray, surface.t, band)?;
         let opaque = self.surface(ray, &hit);
         if !coincide(ray, surface, &opaque) {
             return None;
@@ -192,19 +198,29 @@ impl World {
     }
 
     /// The first opaque surface within `band` of t along the ray.
-    fn opaque_within(&self, ray: &Ray, t: f64, band: f64) -> Option<Hit> {
+    fn opaque_within(&self, contacts: &Contacts, ray: &Ray, t: f64, band: f64) -> Option<Hit> {
         let start = t - band;
         let probe = Ray { origin: ray.at(start), dir: ray.dir };
         let mut best: Option<Hit> = None;
-        self.tree.nearest(&super::bvh::BoxRay::rounded(&probe), round_up(2.0 * band), |other, _| {
-            if self.instances[other as usize].rank != 0 {
-                return None;
-            }
+        let mut look = |other: u32| {
             let limit = best.map_or(2.0 * band, |h| h.t);
             let hit = self.nearest_of(other, &probe, limit)?;
             best = Some(hit);
             Some(round_up(hit.t))
-        });
+        };
+        match &contacts.met {
+            Opaque::Few(few) => {
+                let p = ray.at(t);
+                for (_, other) in few.iter().filter(|(bounds, _)| within(bounds, p, band)) {
+                    look(*other);
+                }
+            }
+            Opaque::Many => {
+                self.tree.nearest(&super::bvh::BoxRay::rounded(&probe), round_up(2.0 * band), |other, _| {
+                    if self.instances[other as usize].rank == 0 { look(other) } else { None }
+                });
+            }
+        }
         best.map(|hit| Hit { t: start + hit.t, ..hit })
     }
 

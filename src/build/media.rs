@@ -32,6 +32,9 @@ impl Medium {
     }
 }
 
+/// Media whose bounds are looked at one by one.
+const FEW: usize = 8;
+
 /// Transmissive objects that may overlap at one point.
 const CAPACITY: usize = 7;
 
@@ -160,14 +163,22 @@ impl World {
     ) {
         let band = tolerance / dir.dot(ng).abs().max(1e-3);
         let ray = Ray { origin: p - dir * band, dir };
-        let traversal = super::bvh::BoxRay::rounded(&ray);
-        self.tree.nearest(&traversal, crate::math::round_up(2.0 * band), |other, _| {
-            let rank = self.instances[other as usize].rank;
+        let mut look = |rank: u32, other: u32| {
             if other != instance
-                && rank != 0
                 && let Some(hit) = self.nearest_of(other, &ray, 2.0 * band)
             {
                 found(rank, self.surface(&ray, &hit).ng.dot(dir) < 0.0);
+            }
+        };
+        if self.media.len() <= FEW {
+            let near = (1..).zip(&self.media).filter(|(_, medium)| medium.near(p, band));
+            return near.for_each(|(rank, medium)| look(rank, medium.instance));
+        }
+        let traversal = super::bvh::BoxRay::rounded(&ray);
+        self.tree.nearest(&traversal, crate::math::round_up(2.0 * band), |other, _| {
+            let rank = self.instances[other as usize].rank;
+            if rank != 0 {
+                look(rank, other);
             }
             None
         });

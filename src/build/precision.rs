@@ -1,6 +1,7 @@
 //! How far off their true places the points of an instance may be met.
 
 use super::world::{Geometry, Instance};
+use crate::math::{Aabb, DVec3};
 use std::collections::HashMap;
 
 /// Bounds of the `p_error` of instances' surfaces, metres, each geometry being looked at once.
@@ -27,4 +28,18 @@ impl<'a> Precision<'a> {
         // Sums of coordinates, as those errors are told by, are up to √3 times their lengths.
         local * stretch + 32.0 * f64::EPSILON * (away + 2.0 * stretch * corner)
     }
+
+    /// Whether a box lies so deep in a solid shape that nothing in it is near the shape's surface. False of meshes.
+    pub fn holds(&self, solid: &Instance, bounds: &Aabb) -> bool {
+        let Geometry::Shape(shape) = &self.geometries[solid.geometry as usize] else { return false };
+        let (_, radius) = shape.ball();
+        // Solid shapes are convex: with its corners the box is inside, at their depth at the least.
+        let deep = |corner: DVec3| shape.depth(solid.placement.local_point(corner)) > DEEP * radius;
+        let [min, max] = [bounds.min.as_dvec3(), bounds.max.as_dvec3()];
+        let pick = |i: u32, bit: u32, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+        shape.closed() && (0..8).all(|i| deep(DVec3::new(pick(i, 1, 0), pick(i, 2, 1), pick(i, 4, 2))))
+    }
 }
+
+/// Of a shape's radius: far more than any surface's error.
+const DEEP: f64 = 1e-3;

@@ -22,8 +22,8 @@ mod surfaces;
 mod window;
 
 use crate::build::World;
-use crate::math::Health;
 use crate::math::random::{Sequence, Stage, combine, mix, unit};
+use crate::math::{Health, Ray};
 use crate::plan::Plan;
 use bounds::Bound;
 pub use ledger::Ledger;
@@ -103,6 +103,14 @@ pub struct LightShare {
     pub yield_share: f64,
     /// Of all photons.
     pub share: f64,
+}
+
+/// The photons of a pass, counted over all cells.
+struct Schedule {
+    /// By cell, its stretch of the cell's own sequence, and the number of its first photon.
+    runs: Vec<Range<u64>>,
+    starts: Vec<u64>,
+    emitted: u64,
 }
 
 /// Cells of all lights together, and of each at the least and at the most.
@@ -193,18 +201,7 @@ impl Emission {
 
     /// The photons of pass `pass`, of about `count` samples: exactly so many in the mean over passes.
     pub fn scatter(&self, world: &World, pass: u32, count: u64) -> Scattered {
-        let runs: Vec<Range<u64>> =
-            (0..self.cells.len()).map(|cell| self.run(cell, pass, count as f64)).collect();
-        let mut before = 0;
-        let starts: Vec<u64> = runs
-            .iter()
-            .map(|run| {
-                let start = before;
-                before += run.end - run.start;
-                start
-            })
-            .collect();
-        let emitted = before;
+        let Schedule { runs, starts, emitted } = self.schedule(pass, count);
         let walk = self.walk(world);
         let chunks: Vec<u64> = (0..emitted.div_ceil(CHUNK)).collect();
         let sinks: Vec<(Sink, Vec<(u32, Ledger)>)> = chunks
@@ -214,7 +211,7 @@ impl Emission {
                     return Default::default();
                 }
                 let of = chunk * CHUNK..((chunk + 1) * CHUNK).min(emitted);
-                self.chunk(&walk, &runs, &starts, of, count as f64)
+                self.chunk(&walk, &runs, &starts, of, count as f64, Sink::default())
             })
             .collect();
         let mut all =
@@ -227,6 +224,32 @@ impl Emission {
         }
         all.by_light.iter().for_each(|ledger| all.ledger.add(ledger));
         all
+    }
+
+    /// The rays that [`Emission::scatter`] traces, path by path: for measurements.
+    pub fn rays(&self, world: &World, pass: u32, count: u64) -> Vec<Ray> {
+        let Schedule { runs, starts, emitted } = self.schedule(pass, count);
+        let sink = Sink { rays: Some(Vec::new()), ..Sink::default() };
+        self.chunk(&self.walk(world), &runs, &starts, 0..emitted, count as f64, sink)
+            .0
+            .rays
+            .unwrap_or_default()
+    }
+
+    /// Which photons of which cell a pass has.
+    fn schedule(&self, pass: u32, count: u64) -> Schedule {
+        let runs: Vec<Range<u64>> =
+            (0..self.cells.len()).map(|cell| self.run(cell, pass, count as f64)).collect();
+        let mut before = 0;
+        let starts: Vec<u64> = runs
+            .iter()
+            .map(|run| {
+                let start = before;
+                before += run.end - run.start;
+                start
+            })
+            .collect();
+        Schedule { runs, starts, emitted: before }
     }
 
     /// The stretch of a cell's sequence that belongs to a pass. The stretches of successive passes
@@ -247,8 +270,9 @@ impl Emission {
         starts: &[u64],
         of: Range<u64>,
         count: f64,
+        mut sink: Sink,
     ) -> (Sink, Vec<(u32, Ledger)>) {
-        let mut sink = Sink { photons: Vec::with_capacity((of.end - of.start) as usize), ..Sink::default() };
+        sink.photons.reserve((of.end - of.start) as usize);
         let mut ledgers = Vec::new();
         // The last of the cells that begin here: those before it are empty.
         let mut cell = starts.partition_point(|&start| start <= of.start) - 1;

@@ -35,6 +35,8 @@ pub(super) struct Sink {
     pub photons: Vec<Photon>,
     pub ledger: Ledger,
     pub health: Health,
+    /// The paths' rays in their order, where they are asked for.
+    pub rays: Option<Vec<Ray>>,
 }
 
 struct Path {
@@ -149,6 +151,9 @@ impl Walk<'_> {
         sink: &mut Sink,
     ) -> bool {
         sink.ledger.rays += 1;
+        if let Some(rays) = &mut sink.rays {
+            rays.push(path.ray);
+        }
         // A lamp that it has been sent into stops it wherever it gets to, by straight ways or bent ones.
         let t_max = within.map_or(f64::INFINITY, |lamp| {
             self.world.nearest_of(lamp, &path.ray, f64::INFINITY).map_or(0.0, |hit| hit.t)
