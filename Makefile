@@ -112,19 +112,19 @@ gallery: build
 FRAMES ?= 1-48
 TURN   ?= --set image.width=320 --set image.height=180 --set photons.count=200000 --passes 24
 FORMAT ?= gif
-TURNS  := $(OUT)/turntable
+TURNTABLE  := $(OUT)/turntable
 
 ## turntable: the frames of the terrarium as it turns, small, and a film of them where ffmpeg or Python's PIL is; FORMAT=webp or mp4, TURN='--passes 64' for how they are rendered
 turntable: build
-	@mkdir -p '$(TURNS)'
-	'$(TERRARIUM)' render scenes/terrarium.ron --frames '$(FRAMES)' -o '$(TURNS)/####.png' $(TURN) $(FLAGS)
+	@mkdir -p '$(TURNTABLE)'
+	'$(TERRARIUM)' render scenes/terrarium.ron --frames '$(FRAMES)' -o '$(TURNTABLE)/####.png' $(TURN) $(FLAGS)
 	@if command -v ffmpeg >/dev/null; then \
-	    ffmpeg -nostdin -loglevel error -y -framerate 12 -pattern_type glob -i '$(TURNS)/*.png' \
-	        $(if $(filter mp4,$(FORMAT)),-pix_fmt yuv420p,-loop 0) '$(TURNS).$(FORMAT)' && echo 'wrote $(TURNS).$(FORMAT)'; \
+	    ffmpeg -nostdin -loglevel error -y -framerate 12 -pattern_type glob -i '$(TURNTABLE)/*.png' \
+	        $(if $(filter mp4,$(FORMAT)),-pix_fmt yuv420p,-loop 0) '$(TURNTABLE).$(FORMAT)' && echo 'wrote $(TURNTABLE).$(FORMAT)'; \
 	elif [ '$(FORMAT)' != mp4 ] && python3 -c 'import PIL' 2>/dev/null; then \
-	    python3 '$(dir $(SELF))benches/film.py' '$(TURNS)' '$(TURNS).$(FORMAT)' 12; \
+	    python3 '$(dir $(SELF))benches/film.py' '$(TURNTABLE)' '$(TURNTABLE).$(FORMAT)' 12; \
 	else \
-	    echo "the frames are in $(TURNS); a film of them needs ffmpeg$(if $(filter mp4,$(FORMAT)),, or Python's PIL)"; \
+	    echo "the frames are in $(TURNTABLE); a film of them needs ffmpeg$(if $(filter mp4,$(FORMAT)),, or Python's PIL)"; \
 	fi
 
 ## test: build and run every test
