@@ -23,15 +23,6 @@ pub struct Medium {
     pub bounds: Aabb,
 }
 
-impl Medium {
-    /// Whether a point is within its bounds, or no farther from them than this along any axis.
-    #[inline]
-    pub(super) fn near(&self, p: DVec3, distance: f64) -> bool {
-        let (min, max) = (self.bounds.min.as_dvec3() - distance, self.bounds.max.as_dvec3() + distance);
-        p.cmpge(min).all() && p.cmple(max).all()
-    }
-}
-
 /// Media whose bounds are looked at one by one.
 const FEW: usize = 8;
 
@@ -126,7 +117,7 @@ impl World {
             [DVec3::new(0.36, 0.48, 0.8), DVec3::new(-0.64, 0.6, 0.48), DVec3::new(0.48, -0.8, -0.36)];
         let mut set = MediaSet::default();
         for (i, medium) in self.media.iter().enumerate() {
-            if !medium.near(p, medium.error) {
+            if !medium.bounds.near(p, medium.error) {
                 continue;
             }
             let votes = directions.iter().filter(|&&dir| self.leaves(medium.instance, p, dir)).count();
@@ -139,7 +130,7 @@ impl World {
 
     /// Whether the bounds of a transmissive object come within `distance` of a point.
     pub fn has_medium_near(&self, p: DVec3, distance: f64) -> bool {
-        self.media.iter().any(|medium| medium.near(p, distance))
+        self.media.iter().any(|medium| medium.bounds.near(p, distance))
     }
 
     fn leaves(&self, instance: u32, p: DVec3, dir: DVec3) -> bool {
@@ -171,7 +162,7 @@ impl World {
             }
         };
         if self.media.len() <= FEW {
-            let near = (1..).zip(&self.media).filter(|(_, medium)| medium.near(p, band));
+            let near = (1..).zip(&self.media).filter(|(_, medium)| medium.bounds.near(p, band));
             return near.for_each(|(rank, medium)| look(rank, medium.instance));
         }
         let traversal = super::bvh::BoxRay::rounded(&ray);

@@ -52,6 +52,13 @@ impl Aabb {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
+    /// Whether a point is within the box, or no farther from it than `distance` along any axis.
+    #[inline]
+    pub fn near(&self, p: DVec3, distance: f64) -> bool {
+        let (min, max) = (self.min.as_dvec3() - distance, self.max.as_dvec3() + distance);
+        (min.cmple(p) & p.cmple(max)).all()
+    }
+
     pub fn contains(&self, p: Vec3) -> bool {
         self.min.cmple(p).all() && p.cmple(self.max).all()
     }
