@@ -15,6 +15,7 @@ use std::time::Instant;
 use terrarium::index::{Kernel, PhotonMap, Query, Radius};
 use terrarium::math::random::{Counter, Stage};
 use terrarium::math::{Color, Vec3};
+use terrarium::optics::Face;
 use terrarium::scatter::Photon;
 
 const PHOTONS: usize = 1_000_000;
@@ -167,6 +168,7 @@ fn floor_photons() -> Vec<Photon> {
             wi: Vec3::new(0.6, 0.8, 0.0),
             normal: Vec3::Y,
             power: Vec3::splat(1e-6),
+            face: Face::Opaque,
         }
     };
     (0..PHOTONS).map(photon).collect()

@@ -61,7 +61,9 @@ pub(super) fn assemble(
     }
     let coincidence = media.coincidence(&placed.instances, &placed.geometries, &bounds);
     let mut precision = Precision::new(&placed.geometries);
-    let contacts = Contacts::find(&media.ranked, &placed.instances, &bounds, &mut precision);
+    let (contacts, flush) =
+        Contacts::find(&media.ranked, &placed.instances, [&bounds, &all_bounds], &mut precision);
+    placed.instances.iter_mut().zip(flush).for_each(|(instance, error)| instance.flush_error = error);
     let media: Vec<Medium> = media
         .ranked
         .iter()

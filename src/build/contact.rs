@@ -29,35 +29,47 @@ enum Opaque {
 const FEW: usize = 8;
 
 impl Contacts {
-    /// The contacts of every transmissive instance, in the order of `ranked`; empty bounds are never met.
+    /// The contacts of every transmissive instance, in the order of `ranked`, with those of `bounds` that are not
+    /// empty. And by instance, its [`Instance::flush_error`], for which all are where they are `placed`.
     pub(super) fn find(
         ranked: &[u32],
         instances: &[Instance],
-        bounds: &[Aabb],
+        [bounds, placed]: [&[Aabb]; 2],
         precision: &mut Precision,
-    ) -> Vec<Contacts> {
-        let opaque: Vec<u32> = (0u32..)
-            .zip(instances)
-            .filter(|(i, instance)| instance.rank == 0 && bounds[*i as usize] != Aabb::EMPTY)
-            .map(|(i, _)| i)
-            .collect();
+    ) -> (Vec<Contacts>, Vec<f64>) {
+        let mut flush = vec![0.0f64; instances.len()];
+        let opaque: Vec<u32> =
+            (0u32..).zip(instances).filter(|(_, instance)| instance.rank == 0).map(|(i, _)| i).collect();
+        let met = |i: &u32| bounds[*i as usize] != Aabb::EMPTY;
         // A look at every pair would be felt.
         if ranked.len().saturating_mul(opaque.len()) > 4_000_000 {
-            let error = opaque.iter().map(|&i| precision.of(&instances[i as usize])).fold(0.0, f64::max);
-            return vec![Contacts { met: Opaque::Many, error }; ranked.len()];
+            let most = |precision: &mut Precision, of: &[u32]| {
+                of.iter().map(|&i| precision.of(&instances[i as usize])).fold(0.0, f64::max)
+            };
+            let glass = most(precision, ranked);
+            opaque.iter().for_each(|&i| flush[i as usize] = glass);
+            let opaque: Vec<u32> = opaque.into_iter().filter(met).collect();
+            let all = Contacts { met: Opaque::Many, error: most(precision, &opaque) };
+            return (vec![all; ranked.len()], flush);
         }
         let of = |&glass: &u32| {
-            let near = bounds[glass as usize];
-            let meets = |&i: &u32| {
-                let other = &bounds[i as usize];
+            let near = placed[glass as usize];
+            let error = precision.of(&instances[glass as usize]);
+            let touches = |&i: &u32| {
+                let other = &placed[i as usize];
                 near.overlaps(other) && !precision.holds(&instances[glass as usize], other)
             };
-            let met: Vec<u32> = opaque.iter().copied().filter(meets).collect();
+            let touching: Vec<u32> = opaque.iter().copied().filter(touches).collect();
+            for &i in &touching {
+                flush[i as usize] = flush[i as usize].max(error);
+            }
+            let met: Vec<u32> = touching.into_iter().filter(met).collect();
             let error = met.iter().map(|&i| precision.of(&instances[i as usize])).fold(0.0, f64::max);
             let few = || met.iter().map(|&i| (bounds[i as usize], i)).collect();
             Contacts { met: if met.len() > FEW { Opaque::Many } else { Opaque::Few(few()) }, error }
         };
-        ranked.iter().map(of).collect()
+        let contacts = ranked.iter().map(of).collect();
+        (contacts, flush)
     }
 
     /// Whether something opaque may lie within `reach` metres of the point.
@@ -70,14 +82,42 @@ impl Contacts {
     }
 }
 
+/// What is opaque right at an interface.
+#[derive(Clone, Copy, Debug)]
+pub enum Beside {
+    Nothing,
+    /// On the far side of one by which a path leaves glass.
+    Behind(Hit),
+    /// On the near side of one by which a path enters glass, beyond which it is in these media.
+    Before(MediaSet),
+}
+
 /// What a ray meets where surfaces coincide, with their rounding decided.
 pub struct Met {
     pub surface: Surface,
-    /// What is opaque right behind a surface by which the ray leaves glass.
-    pub behind: Option<Hit>,
+    pub beside: Beside,
+}
+
+impl Met {
+    /// Glass is left by `surface`, with something `opaque` right behind it.
+    fn leaving(surface: &Surface, opaque: &Surface, hit: Hit) -> Met {
+        // What is reflected must not meet what is opaque from its wrong side.
+        let mut surface = *surface;
+        surface.p_error = (BAND + 1.0) * (surface.p_error + opaque.p_error);
+        Met { surface, beside: Beside::Behind(hit) }
+    }
 }
 
 impl World {
+    /// How far off a face of the instance, metres, what lies in one plane with it may be met: glass if it is opaque, or
+    /// the other way round. None where nothing of that kind touches it.
+    #[inline]
+    pub fn flush_band(&self, instance: u32) -> Option<f64> {
+        let Instance { rank, flush_error, .. } = self.instances[instance as usize];
+        let error = if rank == 0 { flush_error } else { self.contacts[rank as usize - 1].error };
+        (error > 0.0).then_some(BAND * error)
+    }
+
     /// What takes the place of the surface at a ray's nearest hit, reached through `media`, if something
     /// coincides with it there.
     #[inline(always)]
@@ -101,9 +141,9 @@ impl World {
             return None;
         }
         Some(if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
-            Met { surface: *surface, behind: Some(hit) }
+            Met::leaving(surface, &opaque, hit)
         } else {
-            Met { surface: opaque, behind: None }
+            Met { surface: opaque, beside: Beside::Nothing }
         })
     }
 
@@ -146,7 +186,7 @@ impl World {
         let probe = Ray { origin: ray.at(start), dir: ray.dir };
         let glass = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
         let surface = self.surface(ray, &Hit { t: start + glass.t, ..glass });
-        coincide(ray, &surface, opaque).then_some(Met { surface, behind: Some(*hit) })
+        coincide(ray, &surface, opaque).then(|| Met::leaving(&surface, opaque, *hit))
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a path does at a mirror or an interface, from the eye as from a light: the medium behind it,
 //! and the directions in which it may go on.
 
+use super::contact::Beside;
 use super::media::MediaSet;
 use super::shading::Shading;
 use super::surface::Surface;
@@ -15,6 +16,18 @@ pub struct Crossing {
     pub after: MediaSet,
     /// Offset along the normal that clears all surfaces which coincide with it, metres.
     pub tolerance: f64,
+}
+
+impl Crossing {
+    /// Where it enters glass that is flush with what the path leaves: the media of all faces there.
+    #[inline]
+    pub fn into_all(&mut self, beside: &Beside) {
+        if let Beside::Before(after) = beside
+            && after.top() == self.after.top()
+        {
+            self.after = *after;
+        }
+    }
 }
 
 /// A path's wavelength from an interface on.

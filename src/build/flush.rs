@@ -1,15 +1,15 @@
-//! Lamps in the plane of a glass's face.
+//! Light that leaves what is opaque in the plane of a glass's face: a lamp, a mirror, a matt surface.
 //!
-//! As with all that is opaque (see `contact`), a gap of no width lies between the two: light of the lamp crosses
-//! the face before it is in the glass, and what lies in the glass sees the lamp by a refraction only.
+//! As for light that arrives there (see `contact`), a gap of no width lies between the two: what leaves crosses the
+//! face before it is in the glass, and what lies in the glass and what is opaque see each other by a refraction only.
 
-use super::contact::{BAND, MOST_SLANT, slant};
+use super::contact::{BAND, Beside, MOST_SLANT, slant};
 use super::media::{MediaSet, Medium};
 use super::surface::Surface;
-use super::world::{Geometry, World};
+use super::world::{Geometry, Hit, World};
 use crate::math::{Aabb, DVec3, Ray, robust};
 
-/// How light leaves a lamp that is flush with glass.
+/// How light leaves what is flush with glass.
 pub struct Departure {
     pub ray: Ray,
     pub media: MediaSet,
@@ -17,17 +17,59 @@ pub struct Departure {
 }
 
 /// A surface that light crosses where it starts.
+#[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    pub surface: Surface,
+    /// On it, at a t of about 0.
+    hit: Hit,
+    /// Offset along the normal that clears all that is flush there, metres.
+    p_error: f64,
     /// The media on its far side.
-    pub after: MediaSet,
+    after: MediaSet,
+}
+
+impl Entry {
+    pub fn hit(&self) -> Hit {
+        self.hit
+    }
+
+    /// Of the surface at its hit: what is known of it, and what the path comes from.
+    #[inline]
+    pub fn at(&self, surface: &mut Surface) -> Beside {
+        surface.p_error = self.p_error;
+        Beside::Before(self.after)
+    }
+}
+
+/// A face of glass in one plane with another.
+struct Flush {
+    hit: Hit,
+    /// Of the two planes together, metres.
+    error: f64,
+    inwards: bool,
 }
 
 impl World {
-    /// How light leaves a lamp that may be flush with glass: the lamp is across a gap of no width, so that light which
-    /// goes into the glass meets its surface first, and light which goes the other way is outside. `ray` starts on
-    /// the lamp, at a point known to within `p_error` metres on a face of normal `ng`; beyond it are `media`. `None`
-    /// where no glass is flush with the lamp there.
+    /// How light that a surface sends on leaves it, where glass is flush with it there: see [`World::departure`].
+    #[inline]
+    pub fn onward(&self, surface: &Surface, dir: DVec3, media: &MediaSet) -> Option<Departure> {
+        if self.instances[surface.instance as usize].flush_error == 0.0 {
+            return None;
+        }
+        self.departure(&Ray { origin: surface.p, dir }, surface.p_error, surface.ng, media)
+    }
+
+    /// Whether light between a point of a surface and what lies in this direction crosses glass that is flush with
+    /// the surface.
+    #[inline]
+    pub fn enters(&self, surface: &Surface, dir: DVec3, media: &MediaSet) -> bool {
+        self.onward(surface, dir, media).is_some_and(|departure| departure.entry.is_some())
+    }
+
+    /// How light leaves something opaque that may be flush with glass: it is across a gap of no width, so that light
+    /// which goes into the glass meets its surface first, and light which goes the other way is outside. `ray` starts
+    /// at a point known to within `p_error` metres on a face of normal `ng`; beyond it are `media`. `None` where no
+    /// glass is flush with the face there.
+    #[inline(never)]
     pub fn departure(&self, ray: &Ray, p_error: f64, ng: DVec3, media: &MediaSet) -> Option<Departure> {
         let slant = slant(ray, ng);
         let flush_with = |medium: &Medium| {
@@ -35,36 +77,45 @@ impl World {
             let probe = Ray { origin: ray.at(-band), dir: ray.dir };
             let hit = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
             let surface = self.surface(&probe, &hit);
-            let apart = BAND * (p_error + surface.p_error) * slant;
-            // Beyond both, so that what goes on meets neither the lamp nor the glass again.
-            ((surface.t - band).abs() <= apart).then(|| surface.started_at(ray.at(apart)))
+            let error = p_error + surface.p_error;
+            let hit = Hit { t: hit.t - band, ..hit };
+            ((surface.t - band).abs() <= BAND * error * slant).then_some(Flush {
+                hit,
+                error,
+                inwards: surface.ng.dot(ray.dir) < 0.0,
+            })
         };
         let reach = DVec3::splat(BAND * (p_error + self.media_error) * slant);
-        let mut all: Vec<(u32, Surface)> = Vec::new();
+        if !self.may_have_medium_near(ray.origin, reach.x) {
+            return None;
+        }
+        let mut all: Vec<(u32, Flush)> = Vec::new();
         self.tree.any_in(&Aabb::from_f64(ray.origin - reach, ray.origin + reach), |i| {
             let rank = self.instances[i as usize].rank;
             if rank != 0
-                && let Some(surface) = flush_with(&self.media[rank as usize - 1])
+                && let Some(flush) = flush_with(&self.media[rank as usize - 1])
             {
-                all.push((rank, surface));
+                all.push((rank, flush));
             }
             false
         });
+        let error = all.iter().map(|(_, flush)| flush.error).reduce(f64::max)?;
         let mut before = *media;
         for (rank, _) in &all {
             before = before.crossed(*rank, false).unwrap_or(before);
         }
-        let distance = |surface: &Surface| surface.p.distance_squared(ray.origin);
-        let farthest = all.iter().map(|(_, s)| s).max_by(|a, b| distance(a).total_cmp(&distance(b)))?.p;
-        let mut flush: Vec<_> = all.into_iter().filter(|(_, s)| s.ng.dot(ray.dir) < 0.0).collect();
-        flush.sort_by_key(|(rank, _)| *rank);
-        let after = flush.iter().fold(before, |set, (rank, _)| set.crossed(*rank, true).unwrap_or(set));
-        let ray = Ray { origin: farthest, ..*ray };
-        let entered = flush.last().filter(|(rank, _)| *rank == after.top());
+        all.retain(|(_, flush)| flush.inwards);
+        all.sort_by_key(|(rank, _)| *rank);
+        let after = all.iter().fold(before, |set, (rank, _)| set.crossed(*rank, true).unwrap_or(set));
+        let entered = all.last().filter(|(rank, _)| *rank == after.top());
         // Beneath a medium that counts more, a surface is none.
-        let Some(&(_, surface)) = entered else { return Some(Departure { ray, media: after, entry: None }) };
-        let entry = Entry { surface: surface.started_at(farthest), after };
-        Some(Departure { ray, media: before, entry: Some(Box::new(entry)) })
+        let Some(&(_, Flush { hit, .. })) = entered else {
+            // Beyond all of them, so that what goes on meets none again.
+            let ray = Ray { origin: ray.at(BAND * error * slant), dir: ray.dir };
+            return Some(Departure { ray, media: after, entry: None });
+        };
+        let entry = Entry { hit, p_error: (2.0 * BAND + 1.0) * error, after };
+        Some(Departure { ray: *ray, media: before, entry: Some(Box::new(entry)) })
     }
 
     /// Whether glass that the ray starts in is flush with the lamp in which it ends at t = 1, at a point known to

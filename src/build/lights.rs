@@ -104,6 +104,7 @@ fn luminous_shape(
         placement,
         rank: 0,
         clear: false,
+        flush_error: 0.0,
         breadth: 0.0,
         object: placed.object_names.len() as u32 - 1,
         visible,

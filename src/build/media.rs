@@ -133,6 +133,12 @@ impl World {
         self.media.iter().any(|medium| medium.bounds.near(p, distance))
     }
 
+    /// The same at once: where they are many, always.
+    #[inline]
+    pub(super) fn may_have_medium_near(&self, p: DVec3, distance: f64) -> bool {
+        self.media.len() > FEW || self.has_medium_near(p, distance)
+    }
+
     fn leaves(&self, instance: u32, p: DVec3, dir: DVec3) -> bool {
         let ray = Ray { origin: p, dir };
         self.nearest_of(instance, &ray, f64::INFINITY)

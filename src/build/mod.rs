@@ -33,7 +33,7 @@ mod world;
 use crate::description::Scene;
 use crate::math::DVec3;
 use crate::plan::Plan;
-pub use contact::{Contacts, Met};
+pub use contact::{Beside, Contacts, Met};
 pub use crossing::{Colour, Crossing};
 pub use examine::examine;
 pub use flush::{Departure, Entry};

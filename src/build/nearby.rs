@@ -98,10 +98,16 @@ impl World {
 
     /// The nearest hit with 0 < t < t_max on what is not clear.
     pub fn nearest_unclear(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
+        self.nearest_unclear_but(ray, t_max, None)
+    }
+
+    #[inline]
+    fn nearest_unclear_but(&self, ray: &Ray, t_max: f64, but: Option<u32>) -> Option<Hit> {
         let mut best = Hit { t: t_max, instance: 0, primitive: 0, b: [0.0; 3] };
         let mut met = false;
         self.tree.nearest(&BoxRay::rounded(ray), round_up(t_max), |i, _| {
-            let nearer = !self.instances[i as usize].clear && self.nearer(i, ray, &mut best);
+            let nearer =
+                !self.instances[i as usize].clear && but != Some(i) && self.nearer(i, ray, &mut best);
             met |= nearer;
             nearer.then(|| round_up(best.t))
         });
@@ -118,7 +124,18 @@ impl World {
             if is_such(&surface) {
                 return true;
             }
-            start += surface.t + 4.0 * surface.p_error / ray.dir.dot(surface.ng).abs().max(1e-3);
+            let slant = 1.0 / ray.dir.dot(surface.ng).abs().max(1e-3);
+            let clear_of_it = 4.0 * surface.p_error * slant;
+            if let Some(error) = self.flush_band(hit.instance) {
+                // What lies in one plane with it, whichever of the two rounding puts first.
+                let band = clear_of_it + error * slant;
+                let about = Ray { origin: rest.at(surface.t - band), dir: ray.dir };
+                let other = self.nearest_unclear_but(&about, 2.0 * band, Some(hit.instance));
+                if other.is_some_and(|other| is_such(&self.surface(&about, &other))) {
+                    return true;
+                }
+            }
+            start += surface.t + clear_of_it;
         }
         false
     }

@@ -213,6 +213,7 @@ impl<'a> Placer<'a> {
             placement,
             rank: 0,
             clear: false,
+            flush_error: 0.0,
             breadth: 0.0,
             object: context.object,
             visible: true,

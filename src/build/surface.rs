@@ -3,7 +3,7 @@
 use super::sights::Start;
 use super::world::{Geometry, Hit, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
-use crate::optics::{Coordinates, LocalSurface, MaterialId, TriangleMesh};
+use crate::optics::{Coordinates, Face, LocalSurface, MaterialId, TriangleMesh};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -30,11 +30,6 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The same, crossed at the point `p` where a ray starts.
-    pub(super) fn started_at(self, p: DVec3) -> Surface {
-        Surface { t: 0.0, p, ..self }
-    }
-
     /// Of a ray that leaves it in this direction.
     #[inline]
     pub fn start(&self, dir: DVec3) -> Start {
@@ -43,6 +38,16 @@ impl Surface {
 }
 
 impl World {
+    /// Which face of its object a surface is on the side of the unit normal `n`.
+    #[inline]
+    pub fn face(&self, surface: &Surface, n: DVec3) -> Face {
+        match self.instances[surface.instance as usize].rank {
+            0 => Face::Opaque,
+            _ if surface.ng.dot(n) > 0.0 => Face::Outer,
+            _ => Face::Inner,
+        }
+    }
+
     /// The surface at a hit of `ray`, whose direction is of unit length.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         self.surface_here(ray, hit)

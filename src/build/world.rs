@@ -92,6 +92,9 @@ pub struct Instance {
     pub object: u32,
     /// Whether it lets light through and keeps no photons anywhere.
     pub clear: bool,
+    /// If it is opaque: the largest of the errors of transmissive instances' faces that may lie in one plane with its
+    /// own, metres. 0 where there are none.
+    pub flush_error: f64,
     /// The middle one of the extents of its placed bounds, metres.
     pub breadth: f32,
     /// Whether rays can meet it. Hidden lights only send light.
@@ -210,15 +213,18 @@ impl World {
 
     /// The share of the way from `ray`'s origin to the point `p` of an instance, at its end, on which what is met may
     /// lie in one plane with that point: a ceiling in which a lamp is set. It is a thousand times what the point is
-    /// known to, which covers slopes of 1 : 1000, and 1 where that is more than the way.
+    /// known to, which covers slopes of 1 : 1000, and 1 where that is more than the way; with glass that is flush with
+    /// the point and known less well, it covers slopes of 1 : 16.
     #[inline]
     pub fn flush(&self, ray: &Ray, p: DVec3, instance: u32) -> f64 {
         const GRAZING: f64 = 1e3;
         const ERROR: f64 = 32.0 * f64::EPSILON;
+        const STEEP: f64 = 64.0;
         let placement = &self.instances[instance as usize].placement;
         let own = placement.stretch() * placement.local_point(p).abs().max_element();
         let size = p.abs().max_element() + ray.origin.abs().max_element() + own;
-        (GRAZING * ERROR * size / ray.dir.length()).min(1.0)
+        let glass = STEEP * self.instances[instance as usize].flush_error;
+        ((GRAZING * ERROR * size + glass) / ray.dir.length()).min(1.0)
     }
 
     /// Whether an instance lies on the ray at 0 < t < t_max.

@@ -1,6 +1,6 @@
 //! What tracing asks of a pass's photons: the map, and how far around a point it is asked.
 
-use super::{Bandwidth, Gathered, Kernel, PhotonMap, Query, Radius};
+use super::{Bandwidth, Gathered, Hit, Kernel, PhotonMap, Query, Radius};
 use crate::math::{Color, Vec3};
 
 /// The photons of one pass with the rule of their radius.
@@ -38,7 +38,7 @@ impl Caustics<'_> {
         p: Vec3,
         n: Vec3,
         radius: Radius,
-        seen: impl Fn(Vec3) -> bool,
+        seen: impl Fn(&Hit) -> bool,
         brdf: impl Fn(Vec3) -> Color,
     ) -> Gathered {
         self.map.gather_seen(&Query { p, n, radius }, self.kernel, seen, brdf)

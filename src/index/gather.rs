@@ -62,17 +62,16 @@ impl PhotonMap {
         self.gather_seen(query, kernel, |_| true, brdf)
     }
 
-    /// The same, of the photons of which `seen` says so, given the way to them from `query.p`. The others have a
-    /// part only in the choice of the radius.
+    /// The same, of the photons of which `seen` says so. The others have a part only in the choice of the radius.
     #[inline]
     pub fn gather_seen(
         &self,
         query: &Query,
         kernel: Kernel,
-        seen: impl Fn(Vec3) -> bool,
+        seen: impl Fn(&Hit) -> bool,
         brdf: impl Fn(Vec3) -> Color,
     ) -> Gathered {
-        let weigh = |hit: &Hit| seen(hit.offset).then(|| brdf(hit.wi));
+        let weigh = |hit: &Hit| seen(hit).then(|| brdf(hit.wi));
         match query.radius {
             Radius::Fixed(radius) => self.gather_within(query, radius, kernel, &weigh),
             Radius::Nearest { k, min, max } => self.gather_nearest(query, [min, max], k, kernel, &weigh),

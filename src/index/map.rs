@@ -136,7 +136,7 @@ impl PhotonMap {
 }
 
 fn is_sound(photon: &Photon) -> bool {
-    let Photon { position, wi, normal, power } = photon;
+    let Photon { position, wi, normal, power, .. } = photon;
     [position, wi, normal, power].into_iter().all(|v| v.is_finite())
         && power.cmpge(Vec3::ZERO).all()
         && power.max_element() <= MOST_POWER

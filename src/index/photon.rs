@@ -9,6 +9,7 @@
 //! of its fraction instead, by a value that is a hash of its index, and the mean is kept.
 
 use crate::math::{Color, Vec3, random};
+use crate::optics::Face;
 use crate::scatter::Photon;
 
 const LARGEST: f32 = 32767.0;
@@ -23,14 +24,16 @@ pub struct Packed {
     wi: u32,
     power: [u16; 3],
     /// Biased by 127, as in a float.
-    exponent: u16,
+    exponent: u8,
+    pub face: Face,
 }
 
 impl Packed {
     /// `index` is the photon's place among its fellows; it decides how its power is rounded.
     pub fn new(photon: &Photon, index: usize) -> Packed {
         let (power, exponent) = pack_power(photon.power, index as u64);
-        Packed { normal: pack_direction(photon.normal), wi: pack_direction(photon.wi), power, exponent }
+        let (normal, wi) = (pack_direction(photon.normal), pack_direction(photon.wi));
+        Packed { normal, wi, power, exponent, face: photon.face }
     }
 
     #[inline(always)]
@@ -78,7 +81,7 @@ fn power_of_two(exponent: i32) -> f32 {
 }
 
 /// Mantissas and biased exponent of watts, which are between 0 and 1e38.
-fn pack_power(power: Vec3, index: u64) -> ([u16; 3], u16) {
+fn pack_power(power: Vec3, index: u64) -> ([u16; 3], u8) {
     let largest = power.max_element();
     // the largest channel's mantissa has sixteen bits, unless the exponent ends there
     let mut exponent = ((largest.to_bits() >> 23) as i32 - 127 - 15).max(-126);
@@ -92,7 +95,7 @@ fn pack_power(power: Vec3, index: u64) -> ([u16; 3], u16) {
         let up = random::unit(random::combine(index, channel as u64)) < exact - f64::from(whole);
         (whole + u32::from(up)) as u16
     };
-    ([mantissa(0), mantissa(1), mantissa(2)], (exponent + 127) as u16)
+    ([mantissa(0), mantissa(1), mantissa(2)], (exponent + 127) as u8)
 }
 
 #[cfg(test)]
@@ -121,7 +124,7 @@ mod tests {
     }
 
     fn photon(power: Vec3) -> Photon {
-        Photon { position: Vec3::ZERO, wi: Vec3::Y, normal: Vec3::Y, power }
+        Photon { position: Vec3::ZERO, wi: Vec3::Y, normal: Vec3::Y, power, face: Face::Opaque }
     }
 
     /// A channel's rounding error is uniform over a step of at most 2⁻¹⁵ of the largest channel, so

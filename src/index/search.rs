@@ -17,6 +17,7 @@ use super::map::{HALVES, LEAF, PhotonMap, Positions};
 use super::photon::{NO_DIRECTION, unpack_direction};
 use crate::math::lanes::{Array, Lanes};
 use crate::math::{Color, Vec3};
+use crate::optics::Face;
 
 const LEAST_COSINE: f32 = 0.5;
 const PRESS: f32 = 8.0 * 8.0 - 1.0;
@@ -34,6 +35,7 @@ pub struct Hit {
     pub offset: Vec3,
     /// e², metres².
     pub distance_squared: f32,
+    pub face: Face,
 }
 
 impl PhotonMap {
@@ -92,7 +94,7 @@ impl PhotonMap {
     pub(super) fn hit(&self, p: Vec3, place: usize, distance_squared: f32) -> Hit {
         let packed = &self.packed[place];
         let offset = self.positions[place / LEAF].at(place % LEAF) - p;
-        Hit { wi: packed.wi(), power: packed.power(), offset, distance_squared }
+        Hit { wi: packed.wi(), power: packed.power(), offset, distance_squared, face: packed.face }
     }
 
     /// Calls `then` with the `k` nearest photons that count within `max`, the k-th last, the others

@@ -6,6 +6,7 @@
 mod camera;
 mod emitter;
 pub mod environment;
+mod face;
 mod fresnel;
 mod material;
 mod mesh;
@@ -17,6 +18,7 @@ pub mod texture;
 pub use camera::Camera;
 pub use emitter::{Emitter, EmitterKind, spot_falloff};
 pub use environment::{Environment, EnvironmentSample};
+pub use face::Face;
 pub use fresnel::{Interface, reflected, refracted};
 pub use material::{Material, MaterialId, Relief, TextureId, Weight};
 pub use mesh::TriangleMesh;

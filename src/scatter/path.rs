@@ -15,7 +15,9 @@ use super::Store;
 use super::ledger::Ledger;
 use super::photon::Photon;
 use super::source::Start;
-use crate::build::{Colour, Crossing, Hit, MediaSet, Shading, Start as Origin, Surface, World};
+use crate::build::{
+    Beside, Colour, Crossing, Entry, Hit, MediaSet, Shading, Start as Origin, Surface, World,
+};
 use crate::math::random::Sequence;
 use crate::math::{Color, DVec3, Health, Rare, Ray};
 use crate::optics::Interface;
@@ -58,15 +60,8 @@ struct Path {
     falloff: Option<[f64; 3]>,
     /// The surface on which the ray starts, once it has met one.
     from: Option<Origin>,
-}
-
-/// What is opaque right at an interface.
-enum Beside {
-    Nothing,
-    /// On the far side of one by which the path leaves glass.
-    Behind(Hit),
-    /// On the near side of one by which the path enters it.
-    Lamp,
+    /// What it crosses first where it starts.
+    entry: Option<Box<Entry>>,
 }
 
 /// A way on from a specular surface.
@@ -104,7 +99,6 @@ impl Walk<'_> {
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
         let Start { ray, power, media, falloff, emitter, within, entry } = start;
-        let mut entry = entry;
         let mut path = Path {
             ray,
             power,
@@ -117,17 +111,10 @@ impl Walk<'_> {
             wavelength: None,
             falloff,
             from: None,
+            entry,
         };
         loop {
-            if let Some(entry) = entry.take() {
-                let mut surface = entry.surface;
-                if !self.interact(&mut path, &mut surface, &Beside::Lamp, sequence, sink) {
-                    return;
-                }
-                if path.media.top() == entry.after.top() {
-                    path.media = entry.after;
-                }
-            } else if !self.step(&mut path, emitter, within, sequence, sink) {
+            if !self.step(&mut path, emitter, within, sequence, sink) {
                 return;
             }
             path.depth += 1;
@@ -150,6 +137,26 @@ impl Walk<'_> {
         sequence: Sequence,
         sink: &mut Sink,
     ) -> bool {
+        let entry = path.entry.take();
+        let hit = match &entry {
+            None => self.nearest(path, emitter, within, sink),
+            Some(entry) => Some(entry.hit()),
+        };
+        let Some(hit) = hit else { return false };
+        let mut surface = self.world.surface_here(&path.ray, &hit);
+        let mut beside = Beside::Nothing;
+        if let Some(entry) = entry {
+            beside = entry.at(&mut surface);
+        } else if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {
+            (surface, beside) = (met.surface, met.beside);
+        }
+        self.absorb(path, surface.t.max(0.0), sink);
+        self.interact(path, &mut surface, &beside, sequence, sink)
+    }
+
+    /// What the path's ray meets; where that is nothing, the path has ended.
+    #[inline(always)]
+    fn nearest(&self, path: &Path, emitter: u32, within: Option<u32>, sink: &mut Sink) -> Option<Hit> {
         sink.ledger.rays += 1;
         if let Some(rays) = &mut sink.rays {
             rays.push(path.ray);
@@ -162,19 +169,11 @@ impl Walk<'_> {
             Some(from) => self.world.nearest_from(from, &path.ray, t_max),
             None => self.world.nearest_from_emitter(emitter, &path.ray, t_max),
         };
-        let Some(hit) = hit else {
+        if hit.is_none() {
             let lost = if t_max.is_finite() { &mut sink.ledger.absorbed } else { &mut sink.ledger.escaped };
             *lost += path.power;
-            return false;
-        };
-        let mut surface = self.world.surface_here(&path.ray, &hit);
-        let mut beside = Beside::Nothing;
-        if let Some(met) = self.world.coinciding(&path.ray, &path.media, &hit, &surface) {
-            surface = met.surface;
-            beside = met.behind.map_or(Beside::Nothing, Beside::Behind);
         }
-        self.absorb(path, surface.t, sink);
-        self.interact(path, &mut surface, &beside, sequence, sink)
+        hit
     }
 
     fn absorb(&self, path: &mut Path, t: f64, sink: &mut Sink) {
@@ -215,6 +214,9 @@ impl Walk<'_> {
             path.ray = world.leaving(surface, crossing.tolerance, path.ray.dir);
             path.media = crossing.after;
             return true;
+        }
+        if let Some(crossing) = &mut crossing {
+            crossing.into_all(beside);
         }
         let km = shading.km.as_dvec3();
         let through = if crossing.is_some() { (1.0 - km) * shading.kt.as_dvec3() } else { DVec3::ZERO };
@@ -288,6 +290,7 @@ impl Walk<'_> {
             wi: shading.wo.as_vec3(),
             normal: shading.ng.as_vec3(),
             power,
+            face: self.world.face(surface, shading.ng),
         });
         true
     }
@@ -362,7 +365,7 @@ impl Walk<'_> {
         let touches = match beside {
             Beside::Nothing => false,
             Beside::Behind(_) => i == REFRACTED,
-            Beside::Lamp => i != REFRACTED,
+            Beside::Before(_) => i != REFRACTED,
         };
         (path.from, path.ray) = if touches {
             let from = Origin { outside: false, ..from };
@@ -374,6 +377,9 @@ impl Walk<'_> {
             && let Some(crossing) = crossing
         {
             path.media = crossing.after;
+        } else if let Some(departure) = self.world.onward(surface, dir, &path.media) {
+            path.from = Some(Origin { outside: false, ..from });
+            (path.ray, path.media, path.entry) = (departure.ray, departure.media, departure.entry);
         }
         if i == SCATTERED {
             path.bounces += 1;

@@ -1,6 +1,7 @@
 //! A photon: light that has arrived at a surface.
 
 use crate::math::Vec3;
+use crate::optics::Face;
 
 /// What arrived, where and from where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,4 +14,5 @@ pub struct Photon {
     pub normal: Vec3,
     /// Watts a channel, before the surface has taken its share; ≥ 0.
     pub power: Vec3,
+    pub face: Face,
 }

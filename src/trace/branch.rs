@@ -6,6 +6,7 @@ use super::{Part, Tally, Tracer, bounce};
 use crate::build::{Cone, MediaSet, Start};
 use crate::math::random::Sequence;
 use crate::math::{Color, Ray};
+use std::num::NonZeroU32;
 
 /// The first specular event of a path, which decides the layer that its light counts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +39,8 @@ pub(super) struct Branch {
     pub wavelength: Option<f64>,
     pub sequence: Sequence,
     pub class: Class,
+    /// What it crosses where it starts, as its place in the list of these, counted from 1.
+    pub entry: Option<NonZeroU32>,
 }
 
 impl Branch {

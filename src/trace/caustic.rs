@@ -9,7 +9,7 @@ mod ground;
 use super::branch::{Branch, COVERAGE, INNER, OUTER};
 use super::{Tally, Tracer};
 use crate::build::{Shading, Surface};
-use crate::index::{Caustics, Gathered, Radius, Reach};
+use crate::index::{Caustics, Gathered, Hit, Radius, Reach};
 use crate::math::{Color, Vec3};
 use ground::Ground;
 use std::cell::Cell;
@@ -67,10 +67,11 @@ impl Tracer<'_> {
             let lobe = if cos > 0.0 { libm::pow(cos, exponent) as f32 } else { 0.0 };
             (lambert + peak * lobe) * by_normals(wi)
         };
+        let face = self.world.face(surface, shading.ng);
         let probing = tally.probing;
         let mut estimate = |radius: Radius, dimension: u64| {
             let around = |radius| Ground::around(self.world, surface, shading, radius);
-            let all = || caustics.gather(p, ng, radius, |_| true, brdf);
+            let all = || caustics.gather(p, ng, radius, |hit| hit.face == face, brdf);
             let crowded = |ground: &Option<Ground>| ground.as_ref().is_some_and(Ground::is_crowded);
             let (mut gathered, mut ground) = match radius {
                 Radius::Fixed(radius) => match around(radius) {
@@ -91,8 +92,11 @@ impl Tracer<'_> {
             };
             if let Some(among) = ground.take_if(|ground| ground.is_crowded()) {
                 let hidden = Cell::new(false);
-                let holds = |offset| {
-                    let holds = among.holds(offset);
+                let holds = |hit: &Hit| {
+                    if hit.face != face {
+                        return false;
+                    }
+                    let holds = among.holds(hit.offset);
                     hidden.set(hidden.get() || !holds);
                     holds
                 };

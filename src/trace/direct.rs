@@ -151,7 +151,7 @@ impl Tracer<'_> {
             false => self.world.occluded_from(start, ray, t_max, except),
             true => self.world.occluded(ray, t_max, except),
         };
-        match sample.arrival {
+        let clear = match sample.arrival {
             Arrival::Infinite => {
                 let ray = Ray { origin, dir: sample.wi };
                 !occluded(&ray, f64::INFINITY, None)
@@ -173,7 +173,8 @@ impl Tracer<'_> {
                 let ray = Ray { origin, dir: p - origin };
                 !self.world.hidden_from(emitter, start, &ray).unwrap_or_else(|| occluded(&ray, 1.0, None))
             }
-        }
+        };
+        clear && !self.world.enters(surface, sample.wi, media)
     }
 }
 

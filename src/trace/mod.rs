@@ -7,6 +7,7 @@ mod antialias;
 mod bounce;
 mod branch;
 mod caustic;
+mod departure;
 mod direct;
 mod light;
 mod path;

@@ -11,17 +11,18 @@
 //! interface (Veach 1997, 5.2).
 
 use super::branch::{BOUNCE, Branch, Class, LENS, MIRROR, REFLECTED, REFRACTED, WAVELENGTH};
+use super::departure::Todo;
 use super::record::{InterfaceRecord, Recorder};
 use super::sample::FirstHit;
 use super::{Part, Sample, Tally, Tracer};
-use crate::build::{Candidates, Cone, Crossing, Hit, MediaSet, Shading, Start, Surface};
+use crate::build::{Beside, Candidates, Cone, Crossing, Hit, MediaSet, Shading, Start, Surface};
 use crate::math::random::Sequence;
-use crate::math::{Color, DVec2, Ray, sampling};
+use crate::math::{Color, DVec2, DVec3, Ray, sampling};
 use crate::plan::Carriers;
 
 /// Storage that samples of one tile use again, and what holds for all of them.
 pub struct Scratch {
-    branches: Vec<Branch>,
+    todo: Todo,
     sample: Sample,
     /// The media around the eye; `None` where a lens may lie across the border of one.
     start: Option<MediaSet>,
@@ -33,7 +34,7 @@ impl Scratch {
         let camera = &world.camera;
         let across = camera.lens_radius > 0.0 && world.has_medium_near(camera.eye, camera.lens_radius);
         let start = (!across).then(|| world.media_at(camera.eye));
-        Scratch { branches: Vec::new(), sample: Sample::default(), start }
+        Scratch { todo: Todo::default(), sample: Sample::default(), start }
     }
 }
 
@@ -66,7 +67,7 @@ impl Tracer<'_> {
         tally.watch.begin();
         tally.note(|recorder| recorder.begin(film));
         scratch.sample.clear();
-        scratch.branches.clear();
+        scratch.todo.clear();
         let ray = if camera.lens_radius > 0.0 {
             camera.ray_through_lens(film, sampling::disk(sequence.dimension(LENS).pair()))
         } else {
@@ -84,15 +85,19 @@ impl Tracer<'_> {
             wavelength: None,
             sequence,
             class: Class::Direct,
+            entry: None,
         };
+        let Scratch { sample, todo, .. } = scratch;
         loop {
-            let goes_on = self.follow(&mut branch, hit, &mut scratch.sample, &mut scratch.branches, tally);
-            if !goes_on {
-                let Some(next) = scratch.branches.pop() else { break };
-                branch = next;
+            let goes_on = self.follow(&mut branch, hit, sample, todo, tally);
+            if !goes_on && !todo.pop(&mut branch) {
+                break;
             }
             tally.watch.enter(branch.part());
-            hit = self.world.nearest_from(branch.start, &branch.ray, f64::INFINITY);
+            hit = match todo.entry(&branch) {
+                None => self.world.nearest_from(branch.start, &branch.ray, f64::INFINITY),
+                Some(entry) => Some(entry.hit()),
+            };
         }
         tally.note(|recorder| recorder.end(&scratch.sample));
         &scratch.sample
@@ -116,7 +121,7 @@ impl Tracer<'_> {
         branch: &mut Branch,
         hit: Option<Hit>,
         sample: &mut Sample,
-        todo: &mut Vec<Branch>,
+        todo: &mut Todo,
         tally: &mut Tally,
     ) -> bool {
         tally.note(Recorder::arrive);
@@ -125,11 +130,14 @@ impl Tracer<'_> {
             return false;
         };
         let mut surface = self.world.surface_here(&branch.ray, &hit);
-        let mut behind = None;
-        if let Some(met) = self.world.coinciding(&branch.ray, &branch.media, &hit, &surface) {
-            (surface, behind) = (met.surface, met.behind);
+        let mut beside = Beside::Nothing;
+        if let Some(entry) = todo.entry(branch) {
+            beside = entry.at(&mut surface);
+            branch.entry = None;
+        } else if let Some(met) = self.world.coinciding(&branch.ray, &branch.media, &hit, &surface) {
+            (surface, beside) = (met.surface, met.beside);
         }
-        branch.throughput *= self.world.transmittance(&branch.media, surface.t);
+        branch.throughput *= self.world.transmittance(&branch.media, surface.t.max(0.0));
         let wo = -branch.ray.dir;
         let mut shading = Shading::bare(self.world, &surface, wo);
         shading.look_up(self.world, &surface, &branch.cone);
@@ -139,7 +147,7 @@ impl Tracer<'_> {
         let mut crossing =
             self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
         if let Some(through) = crossing.take_if(|through| through.after.top() == branch.media.top()) {
-            let Some(opaque) = behind else {
+            let Beside::Behind(opaque) = &beside else {
                 // Within an object of higher priority this surface does not exist.
                 tally.note(|recorder| recorder.pass(self.world, &surface, branch.throughput));
                 let Some(step) = self.step(branch, Color::ONE, 0, branch.class, tally) else { return false };
@@ -151,34 +159,40 @@ impl Tracer<'_> {
                 return true;
             };
             // Nothing is left here, so that what is opaque shows.
-            surface = self.world.surface(&branch.ray, &opaque);
+            surface = self.world.surface(&branch.ray, opaque);
             shading = Shading::new(self.world, &surface, wo, &branch.cone);
+        }
+        if let Some(crossing) = &mut crossing {
+            crossing.into_all(&beside);
         }
         // After a bounce, lights have been counted where the path left.
         let carried = self.carried(branch);
         let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
         let emitted = if seen { shading.emitted() } else { Color::ZERO };
+        let before = todo.len();
         let radiance = emitted + self.shaded(carried, branch, &surface, &shading, sample, todo, tally);
+        if todo.len() > before {
+            self.depart_scattered(&surface, &beside, todo);
+        }
         tally.note(|recorder| recorder.meet(self.world, &surface, emitted));
         self.deposit(sample, branch, radiance, tally);
         if shading.km != Color::ZERO && carried.any(Carriers::REFLECTION) {
             tally.rays.reflection += 1;
             if let Some(step) = self.step(branch, shading.km, MIRROR, Class::Reflection, tally) {
                 if crossing.is_none() {
-                    self.reflect(branch, &surface, &shading, surface.p_error, tally);
+                    self.reflect(branch, &surface, &shading, surface.p_error, &beside, tally);
+                    self.depart(branch, &surface, todo);
                     step.take(branch);
                     return true;
                 }
                 let mut next = *branch;
-                self.reflect(&mut next, &surface, &shading, surface.p_error, tally);
+                self.reflect(&mut next, &surface, &shading, surface.p_error, &beside, tally);
                 step.take(&mut next);
-                todo.push(next);
+                todo.push(&next);
             }
         }
         match crossing {
-            Some(crossing) => {
-                self.interface(branch, &surface, &shading, &crossing, behind.is_some(), todo, tally)
-            }
+            Some(crossing) => self.interface(branch, &surface, &shading, &crossing, &beside, todo, tally),
             None => false,
         }
     }
@@ -191,12 +205,30 @@ impl Tracer<'_> {
         surface: &Surface,
         shading: &Shading,
         tolerance: f64,
+        beside: &Beside,
         tally: &mut Tally,
     ) {
         let wi = shading.mirrored(&mut tally.health);
-        branch.start = surface.start(wi);
-        branch.ray = self.world.leaving(surface, tolerance, wi);
+        let touches = matches!(beside, Beside::Before(_));
+        (branch.start, branch.ray) = self.going_on(surface, tolerance, wi, touches);
         branch.cone = branch.cone.after(surface.t);
+    }
+
+    /// Where a way on from a surface starts: if something opaque `touches` it on that side, before the surface,
+    /// which is no longer there for it, so that what touches is met.
+    #[inline(always)]
+    pub(super) fn going_on(
+        &self,
+        surface: &Surface,
+        tolerance: f64,
+        wi: DVec3,
+        touches: bool,
+    ) -> (Start, Ray) {
+        if touches {
+            let start = Start { outside: false, ..surface.start(wi) };
+            return (start, Ray::reaching(surface.p, tolerance, surface.ng, wi));
+        }
+        (surface.start(wi), self.world.leaving(surface, tolerance, wi))
     }
 
     /// What a ray meets that leaves the scene.
@@ -225,7 +257,7 @@ impl Tracer<'_> {
     }
 
     /// Sends the branch on through an interface, and `todo` what it reflects, or the branch itself where
-    /// nothing goes through; `touches` if something opaque lies right behind it. Whether `branch` goes on.
+    /// nothing goes through; it may have something opaque `beside` it. Whether `branch` goes on.
     #[expect(clippy::too_many_arguments, reason = "all of it is the state of one path vertex")]
     fn interface(
         &self,
@@ -233,8 +265,8 @@ impl Tracer<'_> {
         surface: &Surface,
         shading: &Shading,
         crossing: &Crossing,
-        touches: bool,
-        todo: &mut Vec<Branch>,
+        beside: &Beside,
+        todo: &mut Todo,
         tally: &mut Tally,
     ) -> bool {
         let u = || branch.sequence.dimension(WAVELENGTH).value();
@@ -266,26 +298,21 @@ impl Tracer<'_> {
                     copy = *branch;
                     &mut copy
                 };
-                self.reflect(next, surface, shading, crossing.tolerance, tally);
+                self.reflect(next, surface, shading, crossing.tolerance, beside, tally);
                 next.wavelength = wavelength;
                 step.take(next);
                 if alone {
                     return true;
                 }
-                todo.push(*next);
+                todo.push(next);
             }
         }
         let Some(wi) = wi else { return false };
         tally.rays.refraction += 1;
         let weight = weight * ((1.0 - interface.reflectance) / (eta * eta)) as f32;
         let Some(step) = self.step(branch, weight, REFRACTED, Class::Refraction, tally) else { return false };
-        // From before the interface, which is no longer there for it, so that what touches is met.
-        (branch.start, branch.ray) = if touches {
-            let start = Start { outside: false, ..surface.start(wi) };
-            (start, Ray::reaching(surface.p, crossing.tolerance, surface.ng, wi))
-        } else {
-            (surface.start(wi), self.world.leaving(surface, crossing.tolerance, wi))
-        };
+        let touches = matches!(beside, Beside::Behind(_));
+        (branch.start, branch.ray) = self.going_on(surface, crossing.tolerance, wi, touches);
         branch.media = crossing.after;
         branch.cone = branch.cone.after(surface.t).refracted(eta);
         branch.wavelength = wavelength;
@@ -303,7 +330,7 @@ impl Tracer<'_> {
         surface: &Surface,
         shading: &Shading,
         sample: &mut Sample,
-        todo: &mut Vec<Branch>,
+        todo: &mut Todo,
         tally: &mut Tally,
     ) -> Color {
         let base = (Color::ONE - shading.km) * (Color::ONE - shading.kt) * shading.kd;
@@ -335,7 +362,7 @@ impl Tracer<'_> {
         surface: &Surface,
         shading: &Shading,
         sample: &mut Sample,
-        todo: &mut Vec<Branch>,
+        todo: &mut Todo,
         tally: &mut Tally,
     ) -> Color {
         if let Some(caustics) = &self.caustics
@@ -372,7 +399,7 @@ impl Tracer<'_> {
             && let Some(step) = self.step(&next, weight, BOUNCE, branch.class, tally)
         {
             step.take(&mut next);
-            todo.push(next);
+            todo.push(&next);
         }
         radiance
     }

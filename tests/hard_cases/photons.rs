@@ -8,13 +8,14 @@ use std::f64::consts::{PI, TAU};
 use terrarium::index::{Kernel, PhotonMap, Query, Radius};
 use terrarium::math::random::{Counter, Stage};
 use terrarium::math::{Color, Vec3};
+use terrarium::optics::Face;
 use terrarium::scatter::Photon;
 
 const KERNELS: [Kernel; 3] = [Kernel::Disc, Kernel::Cone { kappa: 1.1 }, Kernel::Epanechnikov];
 
 /// A photon of one watt a channel from straight above a surface.
 fn photon(position: Vec3, normal: Vec3) -> Photon {
-    Photon { position, wi: normal, normal, power: Vec3::ONE }
+    Photon { position, wi: normal, normal, power: Vec3::ONE, face: Face::Opaque }
 }
 
 fn counter(item: u64) -> Counter {

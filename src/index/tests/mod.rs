@@ -7,11 +7,12 @@ mod tree;
 use super::*;
 use crate::math::Vec3;
 use crate::math::random::{Counter, Stage};
+use crate::optics::Face;
 use crate::scatter::Photon;
 
 /// A photon of one watt a channel from straight above a surface.
 fn photon(position: Vec3, normal: Vec3) -> Photon {
-    Photon { position, wi: normal, normal, power: Vec3::ONE }
+    Photon { position, wi: normal, normal, power: Vec3::ONE, face: Face::Opaque }
 }
 
 fn counter(item: u64) -> Counter {

@@ -49,7 +49,7 @@ fn a_step_and_a_wall_do_not_leak_onto_the_floor() {
         position: Vec3::new(p.position.z, p.position.x, 0.0),
         wi: Vec3::Z,
         normal: Vec3::Z,
-        power: p.power,
+        ..*p
     };
     let others: Vec<Photon> = step.chain(photons.iter().map(wall)).collect();
     let count = |photons: Vec<Photon>, p: Vec3| estimate(&PhotonMap::new(photons), p, Vec3::Y, 0.1).photons;
@@ -59,6 +59,20 @@ fn a_step_and_a_wall_do_not_leak_onto_the_floor() {
         photons.extend(&others);
         assert_eq!(count(photons.clone(), p), alone);
         photons.truncate(10_000);
+    }
+}
+
+/// The faces of painted glass and of what it lies on, in one plane: each photon says on which of them it is.
+#[test]
+fn photons_of_one_plane_tell_their_faces() {
+    let lit = [(Face::Opaque, 10_000), (Face::Outer, 20_000), (Face::Inner, 40_000)];
+    let on = |(face, count)| floor(count, 7).into_iter().map(move |p| Photon { face, ..p });
+    let map = PhotonMap::new(lit.into_iter().flat_map(on).collect());
+    for (face, count) in lit {
+        let query = Query { p: Vec3::new(0.5, 0.0, 0.5), n: Vec3::Y, radius: Radius::Fixed(0.2) };
+        let e = map.gather_seen(&query, Kernel::Disc, |hit| hit.face == face, |_| Color::ONE).radiance.x;
+        let expected = count as f32;
+        assert!((e / expected - 1.0).abs() < 5.0 / (0.126 * expected).sqrt(), "{face:?}: {e}");
     }
 }
 

@@ -10,6 +10,7 @@ use crate::build::{Obstacles, Shading, Surface, World};
 use crate::index::{Kernel, apart_squared};
 use crate::math::random::Sequence;
 use crate::math::{DVec3, Frame, Ray, Vec3};
+use crate::optics::Face;
 use std::f64::consts::TAU;
 
 /// Counts of trials whose mean is taken, and the most trials of each: ground that fills less of the disc
@@ -31,6 +32,7 @@ pub(super) struct Ground<'a> {
     surface: &'a Surface,
     /// On the side that is seen.
     n: DVec3,
+    face: Face,
     radius: f64,
     /// How high over the surface the sight from place to place goes, metres, and what may be in its way.
     sight: f64,
@@ -56,7 +58,7 @@ impl<'a> Ground<'a> {
             let up = Ray { origin: surface.p + n * surface.p_error, dir: n };
             sight = world.nearest_unclear(&up, 2.0 * sight).map_or(sight, |hit| 0.5 * hit.t);
         }
-        Some(Ground { world, surface, n, radius, sight, obstacles })
+        Some(Ground { world, surface, n, face: world.face(surface, n), radius, sight, obstacles })
     }
 
     /// Whether anything may cut places off from the point.
@@ -114,7 +116,8 @@ impl<'a> Ground<'a> {
             apart.is_some_and(|e2| {
                 (rough && (place.p - surface.p).dot(n).abs() <= ABOVE * radius)
                     || f64::from(e2) <= radius * radius
-            }) && self.keeps_photons(place)
+            }) && world.face(place, n) == self.face
+                && self.keeps_photons(place)
                 && self.is_open(place)
                 && self.reaches(place.p)
         })
@@ -122,7 +125,7 @@ impl<'a> Ground<'a> {
 
     /// Whether nothing lies on a place, such as a mat that is lower than the sight.
     fn is_open(&self, place: &Surface) -> bool {
-        let from = 2.0 * place.p_error;
+        let from = 2.0 * place.p_error + self.world.flush_band(place.instance).unwrap_or(0.0);
         let on = |height| place.p + self.n * height;
         !self.is_crowded()
             || from >= self.sight

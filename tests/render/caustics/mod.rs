@@ -2,6 +2,7 @@
 //! against references, and against itself seen in another way.
 
 pub(crate) mod absent;
+mod beneath;
 mod flush;
 pub(crate) mod lab;
 mod lights;
