@@ -14,7 +14,7 @@ use super::world::{Geometry, Instance, World};
 use super::{BuildError, Built};
 use crate::description::Scene;
 use crate::math::{Aabb, Color};
-use crate::optics::{Camera, Cauchy, Material, Spectrum, Weight};
+use crate::optics::{Camera, Cauchy, Emitter, EmitterKind, Material, Spectrum, Weight};
 use crate::plan::Plan;
 use rayon::prelude::*;
 
@@ -73,6 +73,19 @@ pub(super) fn assemble(
             Some(Medium { instance: i, ior, absorption, error, bounds: all_bounds[i as usize] })
         })
         .collect();
+    let in_glass = |emitter: &Emitter| {
+        let near = |bounds: &Aabb| media.iter().any(|medium| medium.bounds.overlaps(bounds));
+        match emitter.kind {
+            EmitterKind::Point { position, .. } | EmitterKind::Spot { position, .. } => {
+                near(&Aabb::from_f64(position, position))
+            }
+            EmitterKind::Shape { instance } | EmitterKind::Mesh { instance, .. } => {
+                near(&all_bounds[instance as usize])
+            }
+            EmitterKind::Directional { .. } | EmitterKind::Environment => false,
+        }
+    };
+    let emitters_in_glass = lights.emitters.iter().map(in_glass).collect();
     let sights = Sights::new(&placed.instances, &placed.geometries, &bounds, &all_bounds, &lights.emitters);
     let world = World {
         origin,
@@ -87,6 +100,7 @@ pub(super) fn assemble(
         material_names: surfaces.material_names,
         textures: surfaces.textures,
         emitters: lights.emitters,
+        emitters_in_glass,
         environment: lights.environment,
         environment_visible: lights.environment_visible,
         spectrum: media.iter().any(|m| m.ior.disperses()).then(Spectrum::new),

@@ -140,11 +140,12 @@ impl World {
         if !coincide(ray, surface, &opaque) {
             return None;
         }
-        Some(if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
-            Met::leaving(surface, &opaque, hit)
-        } else {
-            Met { surface: opaque, beside: Beside::Nothing }
-        })
+        if media.contains(rank) && ray.dir.dot(surface.ng) > 0.0 {
+            return Some(Met::leaving(surface, &opaque, hit));
+        }
+        // It would enter this glass behind what is opaque; another may end before that.
+        let left = if media.top() != 0 { self.leaving_within(ray, media.top(), &hit, &opaque) } else { None };
+        left.or(Some(Met { surface: opaque, beside: Beside::Nothing }))
     }
 
     /// The first opaque surface within `band` of t along the ray.

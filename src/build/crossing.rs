@@ -61,13 +61,15 @@ impl World {
         (far.ior(colour.um) / near.ior(colour.um), colour)
     }
 
-    /// The way of the unit direction `dir` through a surface. `None` where nothing is transmitted.
+    /// The way of the unit direction `dir` through a surface, which may have something opaque `beside` it. `None`
+    /// where nothing is transmitted.
     #[inline]
     pub fn crossing(
         &self,
         media: &MediaSet,
         dir: DVec3,
         surface: &Surface,
+        beside: &Beside,
         shading: &Shading,
         health: &mut Health,
     ) -> Option<Crossing> {
@@ -75,7 +77,7 @@ impl World {
         if rank == 0 || shading.kt == Color::ZERO {
             None
         } else {
-            self.across(media, dir, surface, rank, health)
+            self.across(media, dir, surface, beside, rank, health)
         }
     }
 
@@ -85,6 +87,7 @@ impl World {
         media: &MediaSet,
         dir: DVec3,
         surface: &Surface,
+        beside: &Beside,
         rank: u32,
         health: &mut Health,
     ) -> Option<Crossing> {
@@ -100,7 +103,10 @@ impl World {
         }
         let tolerance = 2.0 * self.coincidence.max(surface.p_error);
         self.coincident(surface.p, surface.ng, dir, surface.instance, tolerance, |rank, inwards| {
-            after = cross(after, rank, inwards);
+            // Before what is opaque lies the gap of no width: glass on its other side is not entered.
+            if !(inwards && matches!(beside, Beside::Behind(_))) {
+                after = cross(after, rank, inwards);
+            }
         });
         Some(Crossing { after, tolerance: 2.0 * tolerance })
     }

@@ -40,6 +40,9 @@ impl Entry {
     }
 }
 
+/// Faces before a lamp, at most, that may be flush with it.
+const MOST_FLUSH: u32 = 8;
+
 /// A face of glass in one plane with another.
 struct Flush {
     hit: Hit,
@@ -55,24 +58,74 @@ impl World {
         if self.instances[surface.instance as usize].flush_error == 0.0 {
             return None;
         }
-        self.departure(&Ray { origin: surface.p, dir }, surface.p_error, surface.ng, media)
+        let error = self.instances[surface.instance as usize].flush_error;
+        self.departure(&Ray { origin: surface.p, dir }, [surface.p_error, error], surface.ng, media)
     }
 
-    /// Whether light between a point of a surface and what lies in this direction crosses glass that is flush with
-    /// the surface.
+    /// Whether light between a point of a surface and a lamp in this direction crosses glass that is flush with the
+    /// surface. The glass's own light, if it is the lamp, crosses nothing.
+    #[inline(never)]
+    pub fn enters(&self, surface: &Surface, dir: DVec3, media: &MediaSet, lamp: Option<u32>) -> bool {
+        let entry = self.onward(surface, dir, media).and_then(|departure| departure.entry);
+        entry.is_some_and(|entry| lamp != Some(entry.hit.instance))
+    }
+
+    /// Whether all that lies on a ray before `t_end` is glass that is flush with the lamp in which the ray ends at
+    /// t = 1, at a point known to within `p_error` metres or as its shape has it: rounding has put it before the lamp.
     #[inline]
-    pub fn enters(&self, surface: &Surface, dir: DVec3, media: &MediaSet) -> bool {
-        self.onward(surface, dir, media).is_some_and(|departure| departure.entry.is_some())
+    pub fn hidden_by_flush_only(&self, ray: &Ray, t_end: f64, p_error: Option<f64>, lamp: u32) -> bool {
+        let error = self.instances[lamp as usize].flush_error;
+        error > 0.0 && self.flush_alone(ray, t_end, p_error, error, lamp)
+    }
+
+    #[inline(never)]
+    fn flush_alone(&self, ray: &Ray, t_end: f64, p_error: Option<f64>, error: f64, lamp: u32) -> bool {
+        let p_error = p_error.unwrap_or_else(|| self.error_at(ray.at(1.0), lamp));
+        let length = ray.dir.length();
+        let unit = Ray { origin: ray.origin, dir: ray.dir / length };
+        let band = (BAND * (p_error + error) * MOST_SLANT).min(length);
+        if self.occluded(&unit, length - band, Some(lamp)) {
+            return false;
+        }
+        let mut start = length - band;
+        for _ in 0..MOST_FLUSH {
+            let probe = Ray { origin: unit.at(start), dir: unit.dir };
+            let Some(hit) = self.nearest(&probe, t_end * length - start) else { return true };
+            let surface = self.surface(&probe, &hit);
+            let apart = BAND * (p_error + surface.p_error) * slant(&unit, surface.ng);
+            let flush = start + surface.t + apart >= length;
+            if hit.instance != lamp && !(flush && self.instances[hit.instance as usize].rank != 0) {
+                return false;
+            }
+            start += surface.t + surface.p_error * slant(&unit, surface.ng);
+        }
+        false
+    }
+
+    /// The error of a point of a shape, metres.
+    fn error_at(&self, p: DVec3, instance: u32) -> f64 {
+        let Geometry::Shape(shape) = self.geometry(instance) else { return 0.0 };
+        let placement = &self.instances[instance as usize].placement;
+        robust::placed_error(placement, placement.local_point(p), shape.p_error())
     }
 
     /// How light leaves something opaque that may be flush with glass: it is across a gap of no width, so that light
     /// which goes into the glass meets its surface first, and light which goes the other way is outside. `ray` starts
-    /// at a point known to within `p_error` metres on a face of normal `ng`; beyond it are `media`. `None` where no
-    /// glass is flush with the face there.
+    /// at a point on a face of normal `ng`; beyond it are `media`. The point is known to within the first of the errors,
+    /// glass that touches the object to within the second, metres. `None` where no glass is flush with the face there.
     #[inline(never)]
-    pub fn departure(&self, ray: &Ray, p_error: f64, ng: DVec3, media: &MediaSet) -> Option<Departure> {
+    pub fn departure(
+        &self,
+        ray: &Ray,
+        [p_error, error]: [f64; 2],
+        ng: DVec3,
+        media: &MediaSet,
+    ) -> Option<Departure> {
         let slant = slant(ray, ng);
         let flush_with = |medium: &Medium| {
+            if !medium.bounds.near(ray.origin, BAND * (p_error + medium.error)) {
+                return None;
+            }
             let band = BAND * (p_error + medium.error) * slant;
             let probe = Ray { origin: ray.at(-band), dir: ray.dir };
             let hit = self.nearest_of(medium.instance, &probe, 2.0 * band)?;
@@ -85,7 +138,7 @@ impl World {
                 inwards: surface.ng.dot(ray.dir) < 0.0,
             })
         };
-        let reach = DVec3::splat(BAND * (p_error + self.media_error) * slant);
+        let reach = DVec3::splat(BAND * (p_error + error));
         if !self.may_have_medium_near(ray.origin, reach.x) {
             return None;
         }
@@ -129,11 +182,7 @@ impl World {
 
     #[inline(never)]
     fn left_about(&self, ray: &Ray, p_error: Option<f64>, rank: u32, lamp: u32) -> bool {
-        let p_error = p_error.unwrap_or_else(|| {
-            let Geometry::Shape(shape) = self.geometry(lamp) else { return 0.0 };
-            let placement = &self.instances[lamp as usize].placement;
-            robust::placed_error(placement, placement.local_point(ray.at(1.0)), shape.p_error())
-        });
+        let p_error = p_error.unwrap_or_else(|| self.error_at(ray.at(1.0), lamp));
         let medium = &self.media[rank as usize - 1];
         let length = ray.dir.length();
         let unit = Ray { origin: ray.origin, dir: ray.dir / length };

@@ -96,6 +96,24 @@ impl World {
         })
     }
 
+    /// Whether light may pass one of the obstacles.
+    pub fn any_transmits(&self, obstacles: &Obstacles) -> bool {
+        match obstacles.listed.get(..obstacles.count) {
+            Some(listed) => listed.iter().any(|&i| self.instances[i as usize].rank != 0),
+            None => !self.media.is_empty(),
+        }
+    }
+
+    /// Whether something opaque lies in one plane with the outer face of glass, on which photons stay instead.
+    pub fn is_covered(&self, glass: &Surface) -> bool {
+        let Some(error) = self.flush_band(glass.instance) else { return false };
+        let band = 4.0 * glass.p_error + error;
+        let ray = Ray { origin: glass.p + glass.ng * band, dir: -glass.ng };
+        self.tree.any(&BoxRay::rounded(&ray), round_up(2.0 * band), |i| {
+            self.instances[i as usize].rank == 0 && self.hides(i, &ray, 2.0 * band)
+        })
+    }
+
     /// The nearest hit with 0 < t < t_max on what is not clear.
     pub fn nearest_unclear(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
         self.nearest_unclear_but(ray, t_max, None)

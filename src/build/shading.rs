@@ -93,18 +93,30 @@ impl<'a> Shading<'a> {
         }
     }
 
-    /// For a photon, which needs to know how it goes on, and the colours of what shades only where that
+    /// The same for a photon, which needs to know how it goes on, and the colours of what shades only where that
     /// `scatters` it: they are left at 0 elsewhere, and the normal as it is without relief.
-    pub fn of_photon(world: &'a World, surface: &Surface, wo: DVec3, scatters: bool) -> Shading<'a> {
-        let material = &world.materials[surface.material.0 as usize];
-        let cone = Cone { width: 0.0, spread: 0.0 };
-        if scatters || material.specular_somewhere() || !material.textured {
-            return Shading::new(world, surface, wo, &cone);
+    #[inline(always)]
+    pub fn look_up_for_photon(&mut self, world: &World, surface: &Surface, scatters: bool) {
+        if self.material.textured {
+            self.look_up_textures_for_photon(world, surface, scatters);
         }
-        let turn = if wo.dot(surface.ng) >= 0.0 { 1.0 } else { -1.0 };
-        let none = Color::ZERO;
-        let (ng, ns) = (surface.ng * turn, surface.ns * turn);
-        Shading { material, wo, ng, ns, kd: none, ks: none, km: none, kt: none, emission: none }
+    }
+
+    #[inline(never)]
+    fn look_up_textures_for_photon(&mut self, world: &World, surface: &Surface, scatters: bool) {
+        if scatters || self.material.specular_somewhere() {
+            return self.look_up_textures(world, surface, &Cone { width: 0.0, spread: 0.0 });
+        }
+        (self.kd, self.ks, self.km, self.kt) = (Color::ZERO, Color::ZERO, Color::ZERO, Color::ZERO);
+        self.emission = Color::ZERO;
+    }
+
+    /// For a photon: see [`Shading::look_up_for_photon`].
+    #[inline(always)]
+    pub fn of_photon(world: &'a World, surface: &Surface, wo: DVec3, scatters: bool) -> Shading<'a> {
+        let mut shading = Shading::bare(world, surface, wo);
+        shading.look_up_for_photon(world, surface, scatters);
+        shading
     }
 
     /// Whether photons are stored here, on the side of `wo`. Where a texture is black, too: photons around such a

@@ -33,6 +33,8 @@ pub struct World {
     pub material_names: Vec<String>,
     pub textures: Vec<Texture>,
     pub emitters: Vec<Emitter>,
+    /// By emitter, whether it may lie in glass or touch it.
+    pub emitters_in_glass: Vec<bool>,
     pub environment: Option<Environment>,
     /// Whether eye rays that leave the scene see the environment.
     pub environment_visible: bool,
@@ -213,18 +215,15 @@ impl World {
 
     /// The share of the way from `ray`'s origin to the point `p` of an instance, at its end, on which what is met may
     /// lie in one plane with that point: a ceiling in which a lamp is set. It is a thousand times what the point is
-    /// known to, which covers slopes of 1 : 1000, and 1 where that is more than the way; with glass that is flush with
-    /// the point and known less well, it covers slopes of 1 : 16.
+    /// known to, which covers slopes of 1 : 1000, and 1 where that is more than the way.
     #[inline]
     pub fn flush(&self, ray: &Ray, p: DVec3, instance: u32) -> f64 {
         const GRAZING: f64 = 1e3;
         const ERROR: f64 = 32.0 * f64::EPSILON;
-        const STEEP: f64 = 64.0;
         let placement = &self.instances[instance as usize].placement;
         let own = placement.stretch() * placement.local_point(p).abs().max_element();
         let size = p.abs().max_element() + ray.origin.abs().max_element() + own;
-        let glass = STEEP * self.instances[instance as usize].flush_error;
-        ((GRAZING * ERROR * size + glass) / ray.dir.length()).min(1.0)
+        (GRAZING * ERROR * size / ray.dir.length()).min(1.0)
     }
 
     /// Whether an instance lies on the ray at 0 < t < t_max.

@@ -40,6 +40,16 @@ pub fn placed_error(placement: &Placement, p: DVec3, p_error: f64) -> f64 {
     placement.stretch() * local + gamma(8) * on_the_way.length()
 }
 
+/// The largest of the same over all points whose coordinates are no larger than those of `reach`, or more.
+pub fn placed_error_within(placement: &Placement, reach: DVec3, p_error: f64) -> f64 {
+    let there = &placement.world_from_object;
+    let back = &placement.object_from_world;
+    let on_the_way = there.matrix3.abs() * reach + there.translation.abs();
+    let back_again = back.matrix3.abs() * on_the_way + back.translation.abs();
+    let local = p_error + gamma(8) * back_again.length();
+    placement.stretch() * local + gamma(8) * on_the_way.length()
+}
+
 /// a·b as an unevaluated sum of two doubles, exact for |a|, |b| < 2⁴⁹⁰ and no underflow.
 fn exact_product(a: f64, b: f64) -> (f64, f64) {
     // Veltkamp's split into 26 bits each.

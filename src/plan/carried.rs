@@ -45,7 +45,7 @@ impl Carriers {
     }
 
     #[must_use]
-    pub fn with(self, others: Carriers) -> Carriers {
+    pub const fn with(self, others: Carriers) -> Carriers {
         Carriers(self.0 | others.0)
     }
 

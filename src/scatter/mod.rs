@@ -22,7 +22,7 @@ mod surfaces;
 mod window;
 
 use crate::build::World;
-use crate::math::random::{Sequence, Stage, combine, mix, unit};
+use crate::math::random::{Items, Sequence, Stage, combine, mix, unit};
 use crate::math::{Health, Ray};
 use crate::plan::Plan;
 use bounds::Bound;
@@ -274,6 +274,7 @@ impl Emission {
     ) -> (Sink, Vec<(u32, Ledger)>) {
         sink.photons.reserve((of.end - of.start) as usize);
         let mut ledgers = Vec::new();
+        let items = Items::of(self.seed, Stage::Photons);
         // The last of the cells that begin here: those before it are empty.
         let mut cell = starts.partition_point(|&start| start <= of.start) - 1;
         let mut i = of.start;
@@ -281,11 +282,12 @@ impl Emission {
             let end = (starts[cell] + runs[cell].end - runs[cell].start).min(of.end);
             let weight = 1.0 / (count * self.cells[cell].share);
             for index in runs[cell].start + (i - starts[cell])..runs[cell].start + (end - starts[cell]) {
-                let sequence = Sequence::new(self.seed, Stage::Photons, cell as u64, index as u32);
-                if let Some(start) = self.start(walk.world, cell, sequence)
+                let sequence = items.sequence(cell as u64, index as u32);
+                if let Some(mut start) = self.start(walk.world, cell, sequence)
                     && self.may_arrive(&start)
                 {
-                    walk.follow(Start { power: start.power * weight, ..start }, sequence, &mut sink);
+                    start.power *= weight;
+                    walk.follow(start, sequence, &mut sink);
                 }
             }
             i = end;

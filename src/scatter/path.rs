@@ -76,6 +76,7 @@ struct Way {
 
 /// The ways on, in the order in which they are drawn.
 const MIRRORED: usize = 0;
+const REFLECTED: usize = 1;
 const REFRACTED: usize = 2;
 const SCATTERED: usize = 3;
 
@@ -198,8 +199,10 @@ impl Walk<'_> {
     ) -> bool {
         let world = self.world;
         let scatters = self.store == Store::Indirect;
-        let mut shading = Shading::of_photon(world, surface, -path.ray.dir, scatters);
-        let mut crossing = world.crossing(&path.media, path.ray.dir, surface, &shading, &mut sink.health);
+        let mut shading = Shading::bare(world, surface, -path.ray.dir);
+        shading.look_up_for_photon(world, surface, scatters);
+        let mut crossing =
+            world.crossing(&path.media, path.ray.dir, surface, beside, &shading, &mut sink.health);
         let unnoticed = crossing.as_ref().is_some_and(|c| c.after.top() == path.media.top());
         if unnoticed && let Beside::Behind(opaque) = beside {
             // Nothing is left here, so that what is opaque shows.
@@ -323,6 +326,14 @@ impl Walk<'_> {
         let before = path.power;
         let interface = shading.interface(eta);
         let f = interface.reflectance;
+        let draw = || sequence.dimension(ROULETTE + path.vertex).value();
+        // Clear glass: Fresnel alone decides, and the power stays as it is.
+        let clear = through == DVec3::ONE && diffuse == DVec3::ZERO && shading.ns == shading.ng;
+        if clear && path.bounces <= LONG {
+            let way = if draw() < f { REFLECTED } else { REFRACTED };
+            let dir = self.direction(way, shading, eta, &interface, sink);
+            return self.go_on(path, surface, crossing, beside, way, dir, sink);
+        }
         let way = |weight| Way { weight, factor: 1.0, dir: None };
         let onward = Way { dir: scattered.map(|_| out), ..way(diffuse) };
         let mut ways = [way(km), way(through * f), way(through * (1.0 - f)), onward];
@@ -337,7 +348,7 @@ impl Walk<'_> {
         // However white the scene, a long path may end.
         let scale = sum.max(1.0) / if path.bounces > LONG { LONG_SURVIVAL } else { 1.0 };
         let expected = before * ways.iter().map(|w| w.weight * w.factor).sum::<DVec3>();
-        let mut u = sequence.dimension(ROULETTE + path.vertex).value() * scale;
+        let mut u = draw() * scale;
         let drawn = chance.iter().position(|&c| {
             let here = u < c;
             u -= c;
@@ -351,6 +362,22 @@ impl Walk<'_> {
         path.power = before * ways[i].weight * (ways[i].factor / probability);
         sink.ledger.roulette += expected - path.power;
         let dir = ways[i].dir.or_else(|| self.direction(i, shading, eta, &interface, sink));
+        self.go_on(path, surface, crossing, beside, i, dir, sink)
+    }
+
+    /// Sends the path on by one of the ways, in this direction. Whether there is one.
+    #[expect(clippy::too_many_arguments, reason = "the end of one step of one loop")]
+    #[inline(always)]
+    fn go_on(
+        &self,
+        path: &mut Path,
+        surface: &Surface,
+        crossing: Option<&Crossing>,
+        beside: &Beside,
+        i: usize,
+        dir: Option<DVec3>,
+        sink: &mut Sink,
+    ) -> bool {
         let Some(dir) = dir else {
             sink.ledger.absorbed += path.power;
             return false;

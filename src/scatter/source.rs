@@ -6,8 +6,8 @@ use super::bounds::Bound;
 use super::casters;
 use crate::build::{Entry, Geometry, MediaSet, World};
 use crate::math::sampling::SphericalCell;
-use crate::math::{DVec2, DVec3, Frame, Ray};
-use crate::optics::{EmitterKind, Shape, spot_falloff};
+use crate::math::{DVec2, DVec3, Frame, Placement, Ray, robust};
+use crate::optics::{EmitterKind, Shape, Sphere, spot_falloff};
 
 /// What emits, with what does not change from photon to photon.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub(super) struct Source {
     pub bound: Bound,
     /// The media in which photons start, where they are the same everywhere.
     pub media: Option<MediaSet>,
+    /// Of its instance: that of glass which touches it.
+    pub flush_error: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -40,8 +42,7 @@ pub(super) enum Kind {
     Ball {
         instance: u32,
         outwards: bool,
-        /// The placement's, where it leaves the sphere round.
-        scale: Option<f64>,
+        round: Option<Round>,
     },
     /// Any other placed shape.
     Shape {
@@ -57,6 +58,30 @@ pub(super) enum Kind {
         irradiance: DVec3,
     },
     Sky,
+}
+
+/// A ball that its placement leaves round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Round {
+    /// Of the placement, and the inverse.
+    pub scale: f64,
+    pub inverse: f64,
+    /// In the world, metres; and the inverse of the radius there.
+    pub center: DVec3,
+    pub inverse_radius: f64,
+    /// Bound of the errors of its surface's points, metres.
+    pub p_error: f64,
+}
+
+impl Round {
+    fn of(shape: &Shape, sphere: &Sphere, placement: &Placement) -> Option<Round> {
+        let scale = casters::round_scale(placement)?;
+        let reach = sphere.center().abs() + sphere.radius();
+        let p_error = robust::placed_error_within(placement, reach, shape.p_error());
+        let center = placement.point(sphere.center());
+        let inverse_radius = 1.0 / (scale * sphere.radius());
+        Some(Round { scale, inverse: 1.0 / scale, center, inverse_radius, p_error })
+    }
 }
 
 /// A part of what a source emits.
@@ -98,18 +123,20 @@ impl Source {
         let mut sources = Vec::new();
         for (emitter, described) in (0u32..).zip(&world.emitters) {
             for kind in Kind::of(world, &described.kind) {
+                let mut flush_error = 0.0;
                 let (bound, media) = match &kind {
                     Kind::Point { position, .. } | Kind::Spot { position, .. } => {
                         (Bound::of_point(*position), Some(world.media_at(*position)))
                     }
                     Kind::Ball { instance, .. } | Kind::Shape { instance } | Kind::Mesh { instance } => {
                         let instance = &world.instances[*instance as usize];
+                        flush_error = instance.flush_error;
                         let Some(bound) = casters::of_instance(world, instance) else { continue };
                         (bound, outside(&bound))
                     }
                     Kind::Parallel { .. } | Kind::Sky => (*scene, Some(MediaSet::default())),
                 };
-                sources.push(Source { emitter, kind, bound, media });
+                sources.push(Source { emitter, kind, bound, media, flush_error });
             }
         }
         sources
@@ -190,14 +217,14 @@ impl Kind {
             }
             EmitterKind::Shape { instance } => {
                 let instance = *instance;
-                if !matches!(world.geometry(instance), Geometry::Shape(Shape::Sphere(_))) {
+                let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(instance) else {
                     return vec![Kind::Shape { instance }];
-                }
+                };
                 let binding = &world.bindings[world.instances[instance as usize].binding as usize];
-                let scale = casters::round_scale(&world.instances[instance as usize].placement);
-                let mut kinds = vec![Kind::Ball { instance, outwards: true, scale }];
+                let round = Round::of(shape, sphere, &world.instances[instance as usize].placement);
+                let mut kinds = vec![Kind::Ball { instance, outwards: true, round }];
                 if world.materials[binding[0].0 as usize].emits_back {
-                    kinds.push(Kind::Ball { instance, outwards: false, scale });
+                    kinds.push(Kind::Ball { instance, outwards: false, round });
                 }
                 kinds
             }

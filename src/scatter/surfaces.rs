@@ -5,16 +5,17 @@
 //! photons of a direction weigh the same. From other surfaces by a point uniform in area.
 
 use super::bounds::Bound;
-use super::source::{Kind, Source, Start};
+use super::source::{Kind, Round, Source, Start};
 use super::window::Window;
 use crate::build::{Geometry, World};
 use crate::math::{DVec2, DVec3, Frame, Placement, Ray, robust, sampling};
-use crate::optics::{EmitterKind, Material, MaterialId, Quad, Shape, ShapeHit, Sphere, TexturePoint};
+use crate::optics::{EmitterKind, Material, MaterialId, Quad, Shape, ShapeHit, TexturePoint};
 use std::f64::consts::PI;
 
 /// A point on an emitting surface, in object space.
 struct Point {
     p: DVec3,
+    /// In the world, metres.
     p_error: f64,
     ng: DVec3,
     texture: TexturePoint,
@@ -34,14 +35,20 @@ impl Source {
         solid_angle: f64,
         u: [f64; 2],
     ) -> Option<Start> {
-        let Kind::Ball { instance: index, outwards, scale } = self.kind else { return None };
+        let Kind::Ball { instance: index, outwards, round } = self.kind else { return None };
         let instance = &world.instances[index as usize];
         let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(index) else { return None };
         let placement = &instance.placement;
         let along = placement.local_vector(dir);
-        let length = along.length();
-        let frame = Frame::around(along / length);
-        let (d, share) = in_disk(&frame, targets, placement, sphere, scale, u)?;
+        let (unit, length) = match &round {
+            Some(Round { scale, inverse, .. }) => (along * *scale, *inverse),
+            None => {
+                let length = along.length();
+                (along / length, length)
+            }
+        };
+        let frame = Frame::around(unit);
+        let (d, share) = in_disk(&frame, targets, placement, round.as_ref(), u)?;
         let height = (1.0 - d.length_squared()).max(0.0).sqrt();
         let n = frame.to_world(d.extend(if outwards { height } else { -height }));
         let material = material(world, world.bindings[instance.binding as usize][0]);
@@ -53,7 +60,11 @@ impl Source {
         } else {
             TexturePoint::at(Default::default(), p)
         };
-        let point = Point { p, p_error: shape.p_error(), ng: n, texture };
+        let p_error = match &round {
+            Some(round) => round.p_error,
+            None => robust::placed_error(placement, p, shape.p_error()),
+        };
+        let point = Point { p, p_error, ng: n, texture };
         let across = share * sphere.radius() * sphere.radius() * placement.det().abs() * length;
         let mut start = self.leaving(world, placement, material, &point, dir, solid_angle * across)?;
         if !outwards && !instance.visible {
@@ -95,7 +106,7 @@ impl Source {
         let area = share * placement.area_factor(sample.ng) / sample.pdf;
         let point = Point {
             p: sample.p,
-            p_error: shape.p_error(),
+            p_error: robust::placed_error(placement, sample.p, shape.p_error()),
             ng: sample.ng,
             texture: TexturePoint::at(sample.uv, sample.p),
         };
@@ -134,7 +145,8 @@ impl Source {
             return None;
         }
         let texture = TexturePoint::at(local.uv, local.p);
-        let point = Point { p: local.p, p_error: local.p_error, ng: local.ng, texture };
+        let p_error = robust::placed_error(placement, local.p, local.p_error);
+        let point = Point { p: local.p, p_error, ng: local.ng, texture };
         self.leaving(world, placement, material, &point, dir, solid_angle * cos.abs() * total)
     }
 
@@ -153,14 +165,14 @@ impl Source {
         if power == DVec3::ZERO {
             return None;
         }
-        let (p, p_error) =
-            (placement.point(point.p), robust::placed_error(placement, point.p, point.p_error));
+        let (p, p_error) = (placement.point(point.p), point.p_error);
         let ng = placement.unit_normal(point.ng);
         // Beyond a ceiling that may coincide with the lamp's surface: where shadow rays end as well.
         let mut start = self.start(world, Ray::leaving(p, FLUSH * p_error, ng, dir), power);
         // What shines and transmits has its light from its own surface, across no gap.
-        if self.media.is_none() && !material.transmits() {
-            let flush = world.departure(&Ray { origin: p, dir }, p_error, ng, &start.media);
+        let flush_error = self.flush_error;
+        if flush_error > 0.0 && !material.transmits() {
+            let flush = world.departure(&Ray { origin: p, dir }, [p_error, flush_error], ng, &start.media);
             if let Some(departure) = flush {
                 (start.ray, start.media, start.entry) = (departure.ray, departure.media, departure.entry);
             }
@@ -174,15 +186,13 @@ fn in_disk(
     frame: &Frame,
     targets: &[Bound],
     placement: &Placement,
-    sphere: &Sphere,
-    scale: Option<f64>,
+    round: Option<&Round>,
     u: [f64; 2],
 ) -> Option<(DVec2, f64)> {
-    if let Some(scale) = scale {
-        let turned = |v: DVec3| placement.vector(v) / scale;
+    if let Some(round) = round {
+        let turned = |v: DVec3| placement.vector(v) * round.inverse;
         let seen = Frame { s: turned(frame.s), t: turned(frame.t), n: turned(frame.n) };
-        let center = placement.point(sphere.center());
-        let window = Window::of_ball(targets, center, scale * sphere.radius(), &seen)?;
+        let window = Window::of_ball(targets, round, &seen)?;
         if window.area() < PI {
             let d = window.at(u);
             return (d.length_squared() < 1.0).then(|| (d, window.area()));

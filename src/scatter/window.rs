@@ -2,6 +2,7 @@
 //! photons start within it and weigh as much less as it is smaller.
 
 use super::bounds::Bound;
+use super::source::Round;
 use crate::math::{DVec2, DVec3, Frame};
 
 /// Targets up to which their windows are worth their time.
@@ -31,14 +32,14 @@ impl Window {
     }
 
     /// In the square around the disk of a ball seen along `frame.n`, its radius the unit.
-    pub fn of_ball(targets: &[Bound], center: DVec3, radius: f64, frame: &Frame) -> Option<Window> {
+    pub fn of_ball(targets: &[Bound], ball: &Round, frame: &Frame) -> Option<Window> {
         let whole = [DVec2::NEG_ONE, DVec2::ONE];
         if targets.len() > FEW {
             return Some(Window { min: whole[0], size: whole[1] - whole[0] });
         }
         let shadow = |target: &Bound| {
-            let to = (target.center - center) / radius;
-            (DVec2::new(to.dot(frame.s), to.dot(frame.t)), DVec2::splat(target.radius / radius))
+            let to = (target.center - ball.center) * ball.inverse_radius;
+            (DVec2::new(to.dot(frame.s), to.dot(frame.t)), DVec2::splat(target.radius * ball.inverse_radius))
         };
         Window::around(whole, targets.iter().map(shadow))
     }

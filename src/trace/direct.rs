@@ -159,22 +159,27 @@ impl Tracer<'_> {
             // The emitter is convex: what lies before its first surface is not itself.
             Arrival::Shape { p, instance } => {
                 let ray = Ray { origin, dir: p - origin };
-                let flush = self.world.flush(&ray, p, instance);
-                !occluded(&ray, 1.0 - flush, Some(instance))
-                    && !self.world.left_at(&ray, None, media, instance)
+                let end = 1.0 - self.world.flush(&ray, p, instance);
+                let hidden = occluded(&ray, end, Some(instance))
+                    && !self.world.hidden_by_flush_only(&ray, end, None, instance);
+                !hidden && !self.world.left_at(&ray, None, media, instance)
             }
             Arrival::Facet { p, p_error, instance } => {
                 let ray = Ray { origin, dir: p - origin };
                 // It has been moved by as much.
                 let p_error = Some(2.0 * p_error);
-                !occluded(&ray, 1.0, None) && !self.world.left_at(&ray, p_error, media, instance)
+                let hidden = occluded(&ray, 1.0, None)
+                    && !self.world.hidden_by_flush_only(&ray, 1.0, p_error, instance);
+                !hidden && !self.world.left_at(&ray, p_error, media, instance)
             }
             Arrival::Point { p } => {
                 let ray = Ray { origin, dir: p - origin };
                 !self.world.hidden_from(emitter, start, &ray).unwrap_or_else(|| occluded(&ray, 1.0, None))
             }
         };
-        clear && !self.world.enters(surface, sample.wi, media)
+        clear
+            && !(self.world.emitters_in_glass[emitter]
+                && self.world.enters(surface, sample.wi, media, sample.arrival.instance()))
     }
 }
 

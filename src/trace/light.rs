@@ -39,6 +39,16 @@ pub enum Arrival {
     },
 }
 
+impl Arrival {
+    /// What shines, if it is an object or a light with an extent.
+    pub fn instance(&self) -> Option<u32> {
+        match *self {
+            Arrival::Infinite | Arrival::Point { .. } => None,
+            Arrival::Facet { instance, .. } | Arrival::Shape { instance, .. } => Some(instance),
+        }
+    }
+}
+
 impl LightSample {
     /// Of an emitter without an extent, as the point `p` sees it.
     #[inline(always)]

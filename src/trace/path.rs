@@ -38,6 +38,9 @@ impl Scratch {
     }
 }
 
+/// What shadow rays find.
+const LAMPS: Carriers = Carriers::DIRECT.with(Carriers::HIGHLIGHTS).with(Carriers::ENVIRONMENT);
+
 impl Tracer<'_> {
     /// The sample at `film` (pixels from the top left corner) of a sequence. What is not wanted of it may
     /// stay 0.
@@ -144,8 +147,14 @@ impl Tracer<'_> {
         if self.wants.first_hit && branch.depth == 0 && branch.bounces == 0 {
             sample.first = self.first_hit(&surface, &shading);
         }
-        let mut crossing =
-            self.world.crossing(&branch.media, branch.ray.dir, &surface, &shading, &mut tally.health);
+        let mut crossing = self.world.crossing(
+            &branch.media,
+            branch.ray.dir,
+            &surface,
+            &beside,
+            &shading,
+            &mut tally.health,
+        );
         if let Some(through) = crossing.take_if(|through| through.after.top() == branch.media.top()) {
             let Beside::Behind(opaque) = &beside else {
                 // Within an object of higher priority this surface does not exist.
@@ -166,7 +175,11 @@ impl Tracer<'_> {
             crossing.into_all(&beside);
         }
         // After a bounce, lights have been counted where the path left.
-        let carried = self.carried(branch);
+        let mut carried = self.carried(branch);
+        if let Beside::Before(_) = beside {
+            // Into the gap nothing shines but through the glass: photons bring it.
+            carried = carried.without(LAMPS);
+        }
         let seen = branch.bounces == 0 && carried.any(Carriers::SEEN);
         let emitted = if seen { shading.emitted() } else { Color::ZERO };
         let before = todo.len();

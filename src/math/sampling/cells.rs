@@ -102,7 +102,9 @@ impl SphericalCell {
         let s = u[1] * one_minus_cos;
         // |tangent|² = (1 − cos)(1 + cos).
         let reach = (u[1] * (2.0 - s) / (2.0 - one_minus_cos)).max(0.0).sqrt();
-        (b * (1.0 - s) + tangent * reach).normalize()
+        let dir = b * (1.0 - s) + tangent * reach;
+        // Of unit length but for rounding, which one of Newton's steps takes off without a root or a division.
+        dir * (1.5 - 0.5 * dir.length_squared())
     }
 
     /// The point of the arc from the first corner to the third up to which the triangle with the
@@ -119,11 +121,14 @@ impl SphericalCell {
 /// Sine and cosine to full precision for 0 ≤ x ≤ π/10, by their series.
 #[inline]
 fn small_sin_cos(x: f64) -> (f64, f64) {
+    // −1/(k·(k+1)) by multiplication: a chain of divisions would take longer than all else of a sample.
+    const fn part(k: u32) -> f64 {
+        -1.0 / (k * (k + 1)) as f64
+    }
     let y = x * x;
-    let sin = 1.0 - y / 6.0 * (1.0 - y / 20.0 * (1.0 - y / 42.0 * (1.0 - y / 72.0 * (1.0 - y / 110.0))));
-    let cos = 1.0
-        - y / 2.0
-            * (1.0 - y / 12.0 * (1.0 - y / 30.0 * (1.0 - y / 56.0 * (1.0 - y / 90.0 * (1.0 - y / 132.0)))));
+    let series = |parts: [f64; 5]| parts.iter().rev().fold(1.0, |rest, part| 1.0 + part * y * rest);
+    let sin = series(const { [part(2), part(4), part(6), part(8), part(10)] });
+    let cos = 1.0 - 0.5 * y * series(const { [part(3), part(5), part(7), part(9), part(11)] });
     (x * sin, cos)
 }
 

@@ -37,6 +37,8 @@ pub(super) struct Ground<'a> {
     /// How high over the surface the sight from place to place goes, metres, and what may be in its way.
     sight: f64,
     obstacles: Obstacles,
+    /// Whether photons may lie beneath one of them.
+    lit_beneath: bool,
 }
 
 impl<'a> Ground<'a> {
@@ -58,7 +60,8 @@ impl<'a> Ground<'a> {
             let up = Ray { origin: surface.p + n * surface.p_error, dir: n };
             sight = world.nearest_unclear(&up, 2.0 * sight).map_or(sight, |hit| 0.5 * hit.t);
         }
-        Some(Ground { world, surface, n, face: world.face(surface, n), radius, sight, obstacles })
+        let (face, lit_beneath) = (world.face(surface, n), world.any_transmits(&obstacles));
+        Some(Ground { world, surface, n, face, radius, sight, obstacles, lit_beneath })
     }
 
     /// Whether anything may cut places off from the point.
@@ -68,7 +71,14 @@ impl<'a> Ground<'a> {
 
     /// Whether a photon this far away lies on the ground.
     pub fn holds(&self, offset: Vec3) -> bool {
-        self.reaches(self.surface.p + offset.as_dvec3())
+        let place = self.surface.p + offset.as_dvec3();
+        self.reaches(place)
+            && (!self.lit_beneath || self.is_open(place, self.rounding(place), self.surface.instance))
+    }
+
+    /// By how much a photon may lie off its place: it is known in single precision.
+    fn rounding(&self, place: DVec3) -> f64 {
+        self.surface.p_error + 2.0 * f64::from(f32::EPSILON) * place.abs().max_element()
     }
 
     fn reaches(&self, place: DVec3) -> bool {
@@ -78,7 +88,7 @@ impl<'a> Ground<'a> {
 
     /// The same ground with nothing in the way.
     pub fn cleared(self) -> Ground<'a> {
-        Ground { obstacles: Obstacles::default(), ..self }
+        Ground { obstacles: Obstacles::default(), lit_beneath: false, ..self }
     }
 
     /// What the estimate is multiplied by: the inverse of the kernel's integral over the ground. As many places as
@@ -117,16 +127,18 @@ impl<'a> Ground<'a> {
                 (rough && (place.p - surface.p).dot(n).abs() <= ABOVE * radius)
                     || f64::from(e2) <= radius * radius
             }) && world.face(place, n) == self.face
+                && !(self.face == Face::Outer && world.is_covered(place))
                 && self.keeps_photons(place)
-                && self.is_open(place)
+                && self.is_open(place.p, place.p_error, place.instance)
                 && self.reaches(place.p)
         })
     }
 
     /// Whether nothing lies on a place, such as a mat that is lower than the sight.
-    fn is_open(&self, place: &Surface) -> bool {
-        let from = 2.0 * place.p_error + self.world.flush_band(place.instance).unwrap_or(0.0);
-        let on = |height| place.p + self.n * height;
+    fn is_open(&self, place: DVec3, p_error: f64, instance: u32) -> bool {
+        // What lies in one plane with it may be met above it.
+        let from = 2.0 * p_error + self.world.flush_band(instance).unwrap_or(0.0);
+        let on = |height| place + self.n * height;
         !self.is_crowded()
             || from >= self.sight
             || !self.world.cut_off(&self.obstacles, on(from), on(self.sight))

@@ -8,7 +8,7 @@ use std::path::Path;
 use terrarium::math::{DAffine3, DVec3, rotation};
 
 /// A box as a mesh.
-fn block(min: DVec3, max: DVec3) -> Obj {
+pub fn block(min: DVec3, max: DVec3) -> Obj {
     let corner = |i: usize| {
         let pick = |bit: usize, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
         DVec3::new(pick(4, min.x, max.x), pick(2, min.y, max.y), pick(1, min.z, max.z))

@@ -11,5 +11,6 @@ pub(crate) mod parts;
 mod radius;
 pub(crate) mod scales;
 pub(crate) mod surfaces;
+mod touching;
 mod transmission;
 mod yardstick;
