@@ -1,7 +1,7 @@
 //! The surface that a ray has met, in the world.
 
 use super::sights::Start;
-use super::world::{Geometry, Hit, World};
+use super::world::{Geometry, Hit, Instance, Mesh, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
 use crate::optics::{Coordinates, Face, LocalSurface, MaterialId, TriangleMesh};
 
@@ -78,7 +78,57 @@ impl World {
                     lifted: None,
                 }
             }
-            Geometry::Mesh(mesh) => self.mesh_surface(&mesh.surface, ray, hit, placement, binding),
+            Geometry::Mesh(mesh) => {
+                let material = self.material_of(mesh, instance, hit);
+                self.mesh_surface(&mesh.surface, ray, hit, placement, material)
+            }
+        }
+    }
+
+    /// The surface at a hit of a photon, which needs no normal but the facet's and no coordinates where nothing
+    /// specular is, unless it is scattered there; and nowhere a place for shadow rays.
+    #[inline(always)]
+    pub fn surface_of_photon(&self, ray: &Ray, hit: &Hit, scatters: bool) -> Surface {
+        let instance = &self.instances[hit.instance as usize];
+        if let Geometry::Mesh(mesh) = &self.geometries[instance.geometry as usize] {
+            let material = self.material_of(mesh, instance, hit);
+            if !scatters && !self.materials[material.0 as usize].specular_somewhere() {
+                return self.flat_surface(&mesh.surface, ray, hit, &instance.placement, material);
+            }
+        }
+        self.surface_here(ray, hit)
+    }
+
+    #[inline]
+    fn material_of(&self, mesh: &Mesh, instance: &Instance, hit: &Hit) -> MaterialId {
+        let binding = &self.bindings[instance.binding as usize];
+        binding[(mesh.surface.part(hit.primitive) as usize).min(binding.len() - 1)]
+    }
+
+    #[inline(never)]
+    fn flat_surface(
+        &self,
+        mesh: &TriangleMesh,
+        ray: &Ray,
+        hit: &Hit,
+        placement: &Placement,
+        material: MaterialId,
+    ) -> Surface {
+        let facet = mesh.flat_facet(hit.primitive, hit.b);
+        let (local, p_error) = facet.place();
+        let (p, ng) = (placement.point(local), placement.unit_normal(facet.ng()));
+        Surface {
+            t: (p - ray.origin).dot(ray.dir),
+            p,
+            p_error: placed_error(placement, p, local, p_error),
+            ng,
+            ns: ng,
+            mesh_coordinates: None,
+            local,
+            material,
+            instance: hit.instance,
+            primitive: hit.primitive,
+            lifted: None,
         }
     }
 
@@ -89,9 +139,8 @@ impl World {
         ray: &Ray,
         hit: &Hit,
         placement: &Placement,
-        binding: &[MaterialId],
+        material: MaterialId,
     ) -> Surface {
-        let part = mesh.part(hit.primitive) as usize;
         let facet = mesh.facet(hit.primitive, hit.b);
         let LocalSurface { p: local, p_error, ng, ns, uv, dpdu, dpdv } = facet.surface();
         let lifted = (!mesh.normals.is_empty()).then(|| {
@@ -110,7 +159,7 @@ impl World {
             ns: bent.filter(|ns| ns.dot(ng) > 0.0).unwrap_or(ng),
             mesh_coordinates: Some(coordinates),
             local,
-            material: binding[part.min(binding.len() - 1)],
+            material,
             instance: hit.instance,
             primitive: hit.primitive,
             lifted: lifted.filter(|&lifted| lifted != p),

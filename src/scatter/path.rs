@@ -144,7 +144,8 @@ impl Walk<'_> {
             Some(entry) => Some(entry.hit()),
         };
         let Some(hit) = hit else { return false };
-        let mut surface = self.world.surface_here(&path.ray, &hit);
+        let scatters = self.store == Store::Indirect;
+        let mut surface = self.world.surface_of_photon(&path.ray, &hit, scatters);
         let mut beside = Beside::Nothing;
         if let Some(entry) = entry {
             beside = entry.at(&mut surface);

@@ -2,7 +2,7 @@
 //! brute force.
 
 use super::record::{Record, row, sized};
-use crate::render::caustics::surfaces;
+use crate::render::caustics::{neighbours, surfaces};
 use crate::render::meshes::folder;
 use std::f64::consts::{PI, TAU};
 use terrarium::index::{Kernel, PhotonMap, Query, Radius};
@@ -213,6 +213,23 @@ fn h32_edges_and_thin_walls() {
             row.is(&format!("{what} in even light: its edges over its middle"), edges, 1.0, 0.05);
             row.is(&format!("{what}: its corners"), corners, 1.0, 0.05);
         }
+        let every = sized(4, 1);
+        let columns: Vec<f64> = neighbours::neighbourhoods(dir.path())
+            .iter()
+            .step_by(every)
+            .map(|(_, objects)| neighbours::last_column(dir.path(), objects))
+            .collect();
+        let what = format!(
+            "a floor in even light before {} kinds of wall, box, tile and mat: its last column over the closed form",
+            columns.len()
+        );
+        row.is(
+            &format!("{what}, the darkest"),
+            columns.iter().copied().fold(f64::INFINITY, f64::min),
+            1.0,
+            0.05,
+        );
+        row.is("the brightest", columns.iter().copied().fold(0.0, f64::max), 1.0, 0.05);
         let dark = surfaces::dark_side(r#"(shape: box(size: (1e-6, 6, 6)), material: "white")"#);
         row.is("brightest pixel behind a lit wall 1e-6 m thick", dark, 0.0, 0.0);
     });

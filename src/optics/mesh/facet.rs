@@ -32,6 +32,16 @@ impl TriangleMesh {
     /// are used, so that the point is in the triangle's plane.
     #[inline]
     pub fn facet(&self, triangle: u32, b: [f32; 3]) -> Facet<'_> {
+        let mut facet = self.flat_facet(triangle, b);
+        if !self.normals.is_empty() {
+            facet.normals = self.corner_normals(triangle, facet.ng);
+        }
+        facet
+    }
+
+    /// The same as if the vertices had no normals.
+    #[inline]
+    pub fn flat_facet(&self, triangle: u32, b: [f32; 3]) -> Facet<'_> {
         let corners = self.corners(triangle);
         let b = [f64::from(b[1]), f64::from(b[2])];
         let edges = [corners[1] - corners[0], corners[2] - corners[0]];
@@ -41,9 +51,8 @@ impl TriangleMesh {
         let reciprocal = 1.0 / area;
         let sound = reciprocal.is_finite() && reciprocal > 0.0;
         let ng = if sound { normal * reciprocal } else { DVec3::Y };
-        let normals = if self.normals.is_empty() { [ng; 3] } else { self.corner_normals(triangle, ng) };
         let p_error = traversal_error(&corners, area, p);
-        Facet { mesh: self, triangle, corners, edges, b, p, p_error, ng, normals }
+        Facet { mesh: self, triangle, corners, edges, b, p, p_error, ng, normals: [ng; 3] }
     }
 
     /// An upper bound of the `LocalSurface::p_error` of all its points.
@@ -84,6 +93,11 @@ impl Facet<'_> {
     /// Of the triangle.
     pub fn ng(&self) -> DVec3 {
         self.ng
+    }
+
+    /// Where it is, and how far off that it may be met.
+    pub fn place(&self) -> (DVec3, f64) {
+        (self.p, self.p_error)
     }
 
     #[inline]

@@ -6,7 +6,7 @@ mod beneath;
 mod flush;
 pub(crate) mod lab;
 mod lights;
-mod neighbours;
+pub(crate) mod neighbours;
 pub(crate) mod parts;
 mod radius;
 pub(crate) mod scales;

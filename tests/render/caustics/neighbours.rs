@@ -27,6 +27,12 @@ fn scene(folder: &Path, photons: &str, objects: &[&str]) -> Shot {
     .passes(12)
 }
 
+/// The last column's brightness before such a neighbourhood, over the closed form for a pane.
+pub(crate) fn last_column(folder: &Path, objects: &[String]) -> f64 {
+    let objects: Vec<&str> = objects.iter().map(String::as_str).collect();
+    columns(&scene(folder, "progressive(count: 20000)", &objects))[WIDTH / 2 - 1]
+}
+
 /// The floor's brightness by column up to x = 0, over the closed form for a pane.
 fn columns(shot: &Shot) -> Vec<f64> {
     let picture = shot.render();
