@@ -37,6 +37,7 @@ impl Surfaces {
         for (name, described) in scene.materials.iter().filter(|(name, _)| used.contains(name)) {
             let mut material = textures.material(described)?;
             material.textured |= plan.forced();
+            material.patchy = material.is_patchy(&textures.list);
             check_energy(name, &material, &textures.list)?;
             ids.insert(name.to_owned(), MaterialId(materials.len() as u32));
             materials.push(material);
@@ -96,6 +97,7 @@ impl Surfaces {
             emits_back,
             relief: Vec::new(),
             textured: false,
+            patchy: false,
         });
         MaterialId(self.materials.len() as u32 - 1)
     }
@@ -180,6 +182,7 @@ impl<'a> Textures<'a> {
             emits_back: true,
             relief,
             textured: false,
+            patchy: false,
         };
         let textured = !material.relief.is_empty()
             || [

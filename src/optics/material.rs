@@ -90,9 +90,18 @@ pub struct Material {
     pub relief: Vec<Relief>,
     /// Whether any part of it needs surface coordinates.
     pub textured: bool,
+    /// Whether photons may be stored on some of a surface and not on the rest of it.
+    pub patchy: bool,
 }
 
 impl Material {
+    /// What [`Material::patchy`] is, by its textures: some of it may be all mirror or all glass.
+    pub fn is_patchy(&self, textures: &[Texture]) -> bool {
+        let [km, kt] = [&self.reflection, &self.transmission];
+        let most = km.bound(textures).max(kt.bound(textures)).min_element();
+        self.keeps_photons() && self.specular.is_zero() && (km.textured() || kt.textured()) && most >= 1.0
+    }
+
     pub fn transmits(&self) -> bool {
         !self.transmission.is_zero()
     }

@@ -51,7 +51,8 @@ impl<'a> Ground<'a> {
     ) -> Option<Ground<'a>> {
         let (n, radius) = (shading.ng, f64::from(radius));
         let obstacles = world.obstacles(surface, n, radius, ABOVE * radius);
-        if obstacles.are_none() && world.clearance(surface) >= radius {
+        let even = !shading.material.patchy && world.clearance(surface) >= radius;
+        if obstacles.are_none() && even {
             return None;
         }
         let mut sight = SIGHT * radius;

@@ -11,10 +11,11 @@ fn from_above(folder: &Path, eye: f64, scene: &str) -> Shot {
     shot(format!(
         r#"(camera: (eye: (0, {eye}, 0), target: (0, 0, 0), up: (0, 0, -1), fov_deg: 30), image: (width: 24, height: 12),
         photons: progressive(count: 60000), render: (max_depth: 64),
+        textures: {{ "squares": checker(a: 1, b: 0, squares: (4, 4)) }},
         materials: {{
             "white": (diffuse: 1), "black": (diffuse: 0), "mirror": (reflection: 1), "glass": (transmission: 1),
             "water": (transmission: 1, ior: "water"), "painted": (transmission: 0.5, diffuse: 1),
-            "glowing": (transmission: 1, emission: 1),
+            "glowing": (transmission: 1, emission: 1), "squares": (transmission: texture("squares"), diffuse: 1),
         }},
         {scene})"#
     ))
@@ -32,12 +33,17 @@ fn boxed(min: [f64; 3], max: [f64; 3], material: &str) -> String {
 const FLOOR: &str = r#"(shape: quad(size: (1, 1)), material: "white")"#;
 
 /// White paint and white or mirroring things, and clear glass and water around them: none of them absorbs anything, so
-/// that in light which is the same from everywhere they look like it. The floor is thin, and lit from below.
+/// that in light which is the same from everywhere they look like it. The floor is thin, and lit from below; the
+/// squares of paint are as bright at their edges as within, though no photons lie beside them.
 #[test]
 fn what_absorbs_nothing_is_lost_in_even_light() {
     let dir = folder();
     let pane = boxed([-0.5, 0.0, -0.5], [0.5, 0.1, 0.5], "painted");
     let mut scenes = vec![("painted glass on a sheet".to_owned(), format!("{FLOOR}, {pane}"))];
+    scenes.push((
+        "glass and paint in squares".to_owned(),
+        boxed([-0.5, 0.0, -0.5], [0.5, 0.1, 0.5], "squares"),
+    ));
     for stone in ["mirror", "white"] {
         // Its upper face is the water's surface, and the glass's lower face.
         let pool = [
