@@ -67,7 +67,7 @@ impl Pane<'_> {
         let up = turn.transform_vector3(DVec3::NEG_Z);
         shot(format!(
             r#"(camera: (eye: {eye:?}, target: {target:?}, up: {up:?}, fov_deg: 20), image: (width: 12, height: 12),
-            photons: progressive(count: 60000), render: (max_depth: 64),
+            photons: progressive(count: 20000), render: (max_depth: 64),
             materials: {{
                 "white": (diffuse: 1), "glass": (transmission: 1), "painted": (transmission: 0.5, diffuse: 0.8),
                 "mirror": (diffuse: 0, reflection: 0.3), "lamp": (diffuse: 0, emission: 1),
