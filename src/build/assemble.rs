@@ -73,8 +73,9 @@ pub(super) fn assemble(
             Some(Medium { instance: i, ior, absorption, error, bounds: all_bounds[i as usize] })
         })
         .collect();
+    let tree = Bvh::build(&bounds);
     let in_glass = |emitter: &Emitter| {
-        let near = |bounds: &Aabb| media.iter().any(|medium| medium.bounds.overlaps(bounds));
+        let near = |bounds: &Aabb| tree.any_in(bounds, |i| placed.instances[i as usize].rank != 0);
         match emitter.kind {
             EmitterKind::Point { position, .. } | EmitterKind::Spot { position, .. } => {
                 near(&Aabb::from_f64(position, position))
@@ -91,7 +92,7 @@ pub(super) fn assemble(
         origin,
         vista: Vista::new(&camera, &bounds),
         camera,
-        tree: Bvh::build(&bounds),
+        tree,
         sights,
         geometries: placed.geometries,
         instances: placed.instances,

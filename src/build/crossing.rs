@@ -18,18 +18,6 @@ pub struct Crossing {
     pub tolerance: f64,
 }
 
-impl Crossing {
-    /// Where it enters glass that is flush with what the path leaves: the media of all faces there.
-    #[inline]
-    pub fn into_all(&mut self, beside: &Beside) {
-        if let Beside::Before(after) = beside
-            && after.top() == self.after.top()
-        {
-            self.after = *after;
-        }
-    }
-}
-
 /// A path's wavelength from an interface on.
 #[derive(Clone, Copy, Debug)]
 pub struct Colour {
@@ -98,6 +86,12 @@ impl World {
             })
         };
         let mut after = cross(*media, rank, dir.dot(surface.ng) < 0.0);
+        if let Beside::Before(all) = beside
+            && all.top() == after.top()
+        {
+            // Into glass that is flush with what the path leaves: the media of all faces there.
+            return Some(Crossing { after: *all, tolerance: surface.p_error });
+        }
         if self.coincidence == 0.0 {
             return Some(Crossing { after, tolerance: surface.p_error });
         }

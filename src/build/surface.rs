@@ -3,7 +3,7 @@
 use super::sights::Start;
 use super::world::{Geometry, Hit, Instance, Mesh, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
-use crate::optics::{Coordinates, Face, LocalSurface, MaterialId, TriangleMesh};
+use crate::optics::{Coordinates, Face, Facet, LocalSurface, MaterialId, TriangleMesh};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -114,22 +114,7 @@ impl World {
         placement: &Placement,
         material: MaterialId,
     ) -> Surface {
-        let facet = mesh.flat_facet(hit.primitive, hit.b);
-        let (local, p_error) = facet.place();
-        let (p, ng) = (placement.point(local), placement.unit_normal(facet.ng()));
-        Surface {
-            t: (p - ray.origin).dot(ray.dir),
-            p,
-            p_error: placed_error(placement, p, local, p_error),
-            ng,
-            ns: ng,
-            mesh_coordinates: None,
-            local,
-            material,
-            instance: hit.instance,
-            primitive: hit.primitive,
-            lifted: None,
-        }
+        on_facet(&mesh.flat_facet(hit.primitive, hit.b), ray, hit, placement, material)
     }
 
     #[inline(never)]
@@ -142,28 +127,19 @@ impl World {
         material: MaterialId,
     ) -> Surface {
         let facet = mesh.facet(hit.primitive, hit.b);
-        let LocalSurface { p: local, p_error, ng, ns, uv, dpdu, dpdv } = facet.surface();
-        let lifted = (!mesh.normals.is_empty()).then(|| {
-            let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
-            placement.point(facet.shadow_terminator_point(front))
-        });
-        let p = placement.point(local);
-        let bent = if ns == ng { None } else { Some(placement.unit_normal(ns)) };
-        let ng = placement.unit_normal(ng);
-        let coordinates = placed_coordinates(placement, Coordinates { uv, dpdu, dpdv });
-        Surface {
-            t: (p - ray.origin).dot(ray.dir),
-            p,
-            p_error: placed_error(placement, p, local, p_error),
-            ng,
-            ns: bent.filter(|ns| ns.dot(ng) > 0.0).unwrap_or(ng),
-            mesh_coordinates: Some(coordinates),
-            local,
-            material,
-            instance: hit.instance,
-            primitive: hit.primitive,
-            lifted: lifted.filter(|&lifted| lifted != p),
+        let mut surface = on_facet(&facet, ray, hit, placement, material);
+        let LocalSurface { ng, ns, uv, dpdu, dpdv, .. } = facet.surface();
+        if ns != ng {
+            let bent = placement.unit_normal(ns);
+            surface.ns = if bent.dot(surface.ng) > 0.0 { bent } else { surface.ng };
         }
+        surface.mesh_coordinates = Some(placed_coordinates(placement, Coordinates { uv, dpdu, dpdv }));
+        if !mesh.normals.is_empty() {
+            let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
+            let lifted = placement.point(facet.shadow_terminator_point(front));
+            surface.lifted = (lifted != surface.p).then_some(lifted);
+        }
+        surface
     }
 
     /// A surface's coordinates, as they run in the world.
@@ -178,6 +154,26 @@ impl World {
                 found.unwrap_or(Coordinates { uv: DVec2::ZERO, dpdu: DVec3::ZERO, dpdv: DVec3::ZERO })
             }
         }
+    }
+}
+
+/// The surface of a facet as it is flat, without coordinates.
+#[inline(always)]
+fn on_facet(facet: &Facet, ray: &Ray, hit: &Hit, placement: &Placement, material: MaterialId) -> Surface {
+    let (local, p_error) = facet.place();
+    let (p, ng) = (placement.point(local), placement.unit_normal(facet.ng()));
+    Surface {
+        t: (p - ray.origin).dot(ray.dir),
+        p,
+        p_error: placed_error(placement, p, local, p_error),
+        ng,
+        ns: ng,
+        mesh_coordinates: None,
+        local,
+        material,
+        instance: hit.instance,
+        primitive: hit.primitive,
+        lifted: None,
     }
 }
 

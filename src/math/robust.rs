@@ -31,23 +31,23 @@ pub fn gamma_f32(n: u32) -> f64 {
 /// `p_error` in object space: the roundings of the map to the world and of the way back to object
 /// space, where a further ray is tested, are included.
 pub fn placed_error(placement: &Placement, p: DVec3, p_error: f64) -> f64 {
-    let there = &placement.world_from_object;
-    let back = &placement.object_from_world;
-    let world = there.transform_point3(p);
-    let on_the_way = there.matrix3.abs() * p.abs() + there.translation.abs();
-    let back_again = back.matrix3.abs() * world.abs() + back.translation.abs();
-    let local = p_error + gamma(8) * back_again.length();
-    placement.stretch() * local + gamma(8) * on_the_way.length()
+    error_between(placement, p.abs(), placement.world_from_object.transform_point3(p).abs(), p_error)
 }
 
 /// The largest of the same over all points whose coordinates are no larger than those of `reach`, or more.
 pub fn placed_error_within(placement: &Placement, reach: DVec3, p_error: f64) -> f64 {
     let there = &placement.world_from_object;
+    error_between(placement, reach, there.matrix3.abs() * reach + there.translation.abs(), p_error)
+}
+
+/// The same for coordinates of these sizes in object space and in the world.
+fn error_between(placement: &Placement, local: DVec3, world: DVec3, p_error: f64) -> f64 {
+    let there = &placement.world_from_object;
     let back = &placement.object_from_world;
-    let on_the_way = there.matrix3.abs() * reach + there.translation.abs();
-    let back_again = back.matrix3.abs() * on_the_way + back.translation.abs();
-    let local = p_error + gamma(8) * back_again.length();
-    placement.stretch() * local + gamma(8) * on_the_way.length()
+    let on_the_way = there.matrix3.abs() * local + there.translation.abs();
+    let back_again = back.matrix3.abs() * world + back.translation.abs();
+    let error = p_error + gamma(8) * back_again.length();
+    placement.stretch() * error + gamma(8) * on_the_way.length()
 }
 
 /// a·b as an unevaluated sum of two doubles, exact for |a|, |b| < 2⁴⁹⁰ and no underflow.

@@ -2,6 +2,8 @@
 
 mod facet;
 
+pub use facet::Facet;
+
 use crate::math::{DVec3, Vec2, Vec3};
 
 /// Triangles that share vertices. All indices are within bounds.

@@ -21,7 +21,7 @@ pub use environment::{Environment, EnvironmentSample};
 pub use face::Face;
 pub use fresnel::{Interface, reflected, refracted};
 pub use material::{Material, MaterialId, Relief, TextureId, Weight};
-pub use mesh::TriangleMesh;
+pub use mesh::{Facet, TriangleMesh};
 pub use shape::{
     AreaSample, BareSurface, Cone, Cuboid, DirectionSample, Disk, Polyhedron, Quad, Shape, ShapeHit, Solid,
     Sphere, sample_triangle_direction, triangle_direction_pdf,

@@ -192,9 +192,6 @@ impl Walk<'_> {
             path.media = crossing.after;
             return true;
         }
-        if let Some(crossing) = &mut crossing {
-            crossing.into_all(beside);
-        }
         let km = shading.km.as_dvec3();
         let through = if crossing.is_some() { (1.0 - km) * shading.kt.as_dvec3() } else { DVec3::ZERO };
         let scattered = self.scattered(path, &shading, km, through, sequence);

@@ -171,9 +171,6 @@ impl Tracer<'_> {
             surface = self.world.surface(&branch.ray, opaque);
             shading = Shading::new(self.world, &surface, wo, &branch.cone);
         }
-        if let Some(crossing) = &mut crossing {
-            crossing.into_all(&beside);
-        }
         // After a bounce, lights have been counted where the path left.
         let mut carried = self.carried(branch);
         if let Beside::Before(_) = beside {
