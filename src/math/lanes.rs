@@ -5,12 +5,18 @@
 //! both implementations agree. `min` and `max` return the *second* operand when either is NaN;
 //! the slab test relies on that.
 
+use super::doubles::Doubles;
+
 /// Eight values.
 pub type Array = [f32; 8];
 
 /// Arithmetic on eight lanes. Comparisons return one bit per lane, lane 0 lowest.
 pub trait Lanes: Copy {
     type F: Copy;
+    /// Four double-precision lanes on the same machine.
+    type Doubles: Doubles;
+
+    fn doubles(self) -> Self::Doubles;
 
     fn load(self, a: &Array) -> Self::F;
     fn store(self, a: Self::F) -> Array;
@@ -52,6 +58,12 @@ fn bits(a: Array, b: Array, f: impl Fn(f32, f32) -> bool) -> u32 {
 
 impl Lanes for Portable {
     type F = Array;
+    type Doubles = Portable;
+
+    #[inline(always)]
+    fn doubles(self) -> Portable {
+        self
+    }
 
     #[inline(always)]
     fn load(self, a: &Array) -> Array {
@@ -119,6 +131,12 @@ mod avx2 {
 
     impl Lanes for Avx2 {
         type F = __m256;
+        type Doubles = Avx2;
+
+        #[inline(always)]
+        fn doubles(self) -> Avx2 {
+            self
+        }
 
         #[inline(always)]
         fn load(self, a: &Array) -> __m256 {
@@ -174,6 +192,9 @@ mod avx2 {
         }
     }
 }
+
+#[cfg(target_arch = "x86_64")]
+pub(super) use avx2::Avx2;
 
 /// Which lanes this machine runs.
 #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 //! Nothing here knows of light. Everything is a pure function of its arguments.
 
 mod aabb;
+pub mod doubles;
 mod exact;
 mod frame;
 mod health;

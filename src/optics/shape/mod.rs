@@ -11,6 +11,7 @@
 mod cone;
 mod cuboid;
 mod disk;
+mod planes;
 mod polyhedron;
 mod quad;
 mod solid_angle;

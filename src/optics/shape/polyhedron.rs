@@ -4,8 +4,8 @@
 //! Each solid's face normals are the corners of its dual. Coordinates are those of the square around
 //! each face, upright: v grows along the part of +y in the face (on horizontal faces as for the box).
 
+use super::planes::Planes;
 use super::solid_angle::Triangle;
-use super::span::Span;
 use super::{AreaSample, BareSurface, DirectionSample, ShapeHit, Surface};
 use crate::math::{DMat3, DVec2, DVec3, Frame, Ray, sampling};
 use crate::optics::Coordinates;
@@ -25,6 +25,7 @@ pub struct Polyhedron {
     /// The distance of every face from the origin.
     inradius: f64,
     faces: Vec<Face>,
+    planes: Planes,
     /// The faces as fans of triangles, with their faces' numbers and areas.
     triangles: Vec<([DVec3; 3], u32)>,
     areas: Vec<f64>,
@@ -45,8 +46,9 @@ impl Polyhedron {
         let (corners, normals) = standing(kind);
         let corners: Vec<DVec3> = corners.iter().map(|&c| c * circumradius).collect();
         let inradius = circumradius * inradius_of_unit(&corners, &normals, circumradius);
-        let mut solid =
-            Polyhedron { circumradius, inradius, faces: vec![], triangles: vec![], areas: vec![] };
+        let planes = Planes::new(&normals, inradius);
+        let (faces, triangles, areas) = Default::default();
+        let mut solid = Polyhedron { circumradius, inradius, faces, planes, triangles, areas };
         for (number, &normal) in normals.iter().enumerate() {
             let outline = outline(&corners, normal);
             solid.faces.push(Face::new(normal, &outline));
@@ -57,15 +59,6 @@ impl Polyhedron {
             }
         }
         solid
-    }
-
-    fn span(&self, ray: &Ray) -> Option<Span> {
-        let mut span = Span::LINE;
-        for (number, face) in self.faces.iter().enumerate() {
-            let height = ray.origin.dot(face.normal) - self.inradius;
-            span = span.clip(height, ray.dir.dot(face.normal), number as u32)?;
-        }
-        Some(span)
     }
 
     fn in_front(&self, face: u32, from: DVec3) -> bool {
@@ -208,7 +201,7 @@ impl Surface for Polyhedron {
     }
 
     fn nearest(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<ShapeHit> {
-        self.span(ray)?.nearest(t_min, t_max)
+        self.planes.span(ray)?.nearest(t_min, t_max)
     }
 
     fn bare_surface(&self, ray: &Ray, hit: ShapeHit) -> BareSurface {
@@ -229,13 +222,7 @@ impl Surface for Polyhedron {
     }
 
     fn clearance(&self, p: DVec3) -> f64 {
-        // The smallest distance is that to the face itself.
-        let (mut least, mut second) = (f64::INFINITY, f64::INFINITY);
-        for face in &self.faces {
-            let depth = self.inradius - p.dot(face.normal);
-            (least, second) = (least.min(depth), second.min(depth.max(least)));
-        }
-        second
+        self.planes.clearance(p)
     }
 
     fn depth(&self, p: DVec3) -> f64 {
