@@ -179,6 +179,12 @@ const NO_BIN: Bin = Bin { bounds: Box4::EMPTY, count: 0 };
 /// Reorders the items into two non-empty parts and describes them.
 fn split(items: &mut [Item], range: &Range, max_leaf: usize) -> [Range; 2] {
     if range.depth < BLIND_DEPTH {
+        // A leaf of one box holds what is dear to meet.
+        if max_leaf == 1
+            && let Some(parts) = without_large(items, range)
+        {
+            return parts;
+        }
         let binning = Binning::new(&range.centres);
         let bins = fill_bins(items, &binning);
         if let Some((axis, bin)) = best_split(&bins, max_leaf) {
@@ -191,6 +197,27 @@ fn split(items: &mut [Item], range: &Range, max_leaf: usize) -> [Range; 2] {
         place += 1;
         place <= half
     })
+}
+
+/// Boxes of a node at least that are worth setting its large ones apart, and large ones at most: those of one node of
+/// eight beside all the others.
+const MANY: usize = 16;
+const LARGE: usize = 7;
+
+/// From this share of a node's area on a box is large in it.
+const SHARE: f32 = 0.25;
+
+/// A part with the few boxes that are large beside all others, if there are such. What is as large as the whole node
+/// makes as large every node above it, however far down it is sorted by its centre: a ray through a thicket within
+/// a bowl would enter nodes of blades to find the bowl.
+fn without_large(items: &mut [Item], range: &Range) -> Option<[Range; 2]> {
+    if items.len() < MANY {
+        return None;
+    }
+    let least = SHARE * range.bounds.half_area();
+    let large = |item: &Item| Box4 { min: item.min, max: item.max }.half_area() >= least;
+    let count = items.iter().filter(|item| large(item)).take(LARGE + 1).count();
+    (1..=LARGE).contains(&count).then(|| partition(items, range, |item| !large(item)))
 }
 
 fn fill_bins(items: &[Item], binning: &Binning) -> [[Bin; BINS]; 3] {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::build::bvh::Bvh;
+use crate::build::bvh::node::{Child, Node};
 
 /// Whether the exact ray meets the box, grown by `pad`, at a t in [0, t_max]: double precision is
 /// exact enough for the small integers and halves that the tests use.
@@ -164,4 +165,44 @@ fn the_deepest_trees_are_walked_to_the_end() {
     let tree = Bvh::build(&boxes);
     tree.validate(&boxes).unwrap();
     assert_eq!(visited(&tree, &ray(Vec3::ZERO, Vec3::ONE), 1e9), (0..2000).collect::<Vec<_>>());
+}
+
+/// The walls of a bowl are in the root, however many blades grow in it: else all nodes down to theirs would be as
+/// large as the bowl, and entered by every ray.
+#[test]
+fn what_is_as_large_as_everything_is_near_the_root() {
+    let mut rng = Rng(12);
+    let cube = |half: f32| Aabb { min: Vec3::splat(-half), max: Vec3::splat(half) };
+    // On a table.
+    let mut boxes = vec![Aabb { min: Vec3::new(-9.0, -1.1, -9.0), max: Vec3::new(9.0, -1.0, 9.0) }];
+    for _ in 0..5000 {
+        let p = rng.cube() * rng.cube() * Vec3::new(0.9, 0.3, 0.9);
+        boxes.push(Aabb { min: p - Vec3::new(0.01, 0.06, 0.01), max: p + Vec3::new(0.01, 0.06, 0.01) });
+    }
+    boxes.insert(1234, cube(1.0));
+    boxes.push(cube(0.98));
+    let tree = Bvh::build(&boxes);
+    tree.validate(&boxes).expect("a sound tree");
+    let in_root: Vec<_> = Node(&tree.nodes[0]).filled().map(|(_, _, child)| child).collect();
+    assert!(in_root.contains(&Child::Leaf(1234)) && in_root.contains(&Child::Leaf(5002)), "{in_root:?}");
+    let wide = |(_, bounds, child): (usize, Aabb, Child)| {
+        matches!(child, Child::Node(_)) && (bounds.max - bounds.min).max_element() > 1.9
+    };
+    let nodes = tree.nodes.iter().flat_map(|rows| Node(rows).filled()).filter(|&c| wide(c)).count();
+    assert_eq!(nodes, 0, "nodes as wide as the bowl");
+}
+
+/// Plates of two thirds of the height that is left above them: one at a time is large in what is left, and setting
+/// each apart from all above it would make a tree as deep as the tower.
+#[test]
+fn a_tower_of_plates_makes_no_tower_of_nodes() {
+    let n = 60_000;
+    let plate = |k: u32| {
+        let left = (n - k) as f32 / n as f32 * 4.0;
+        let half = Vec3::new(left / 3.0, 0.0, left / 3.0);
+        let at = Vec3::new(0.0, 4.0 - left, 0.0);
+        Aabb { min: at - half, max: at + half }
+    };
+    let boxes: Vec<Aabb> = (0..n).map(plate).collect();
+    Bvh::build(&boxes).validate(&boxes).expect("a sound tree");
 }
