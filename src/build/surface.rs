@@ -3,7 +3,7 @@
 use super::sights::Start;
 use super::world::{Geometry, Hit, Instance, Mesh, World};
 use crate::math::{DVec2, DVec3, Placement, Ray};
-use crate::optics::{Coordinates, Face, Facet, LocalSurface, MaterialId, TriangleMesh};
+use crate::optics::{Coordinates, Face, Facet, MaterialId, TriangleMesh};
 
 /// A surface point in world space.
 #[derive(Clone, Copy, Debug)]
@@ -85,15 +85,20 @@ impl World {
         }
     }
 
-    /// The surface at a hit of a photon, which needs no normal but the facet's and no coordinates where nothing
-    /// specular is, unless it is scattered there; and nowhere a place for shadow rays.
+    /// The surface at a hit of a photon, which needs no normal but the facet's where nothing specular is, unless
+    /// it is scattered there, coordinates for textures alone, and nowhere a place for shadow rays.
     #[inline(always)]
     pub fn surface_of_photon(&self, ray: &Ray, hit: &Hit, scatters: bool) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         if let Geometry::Mesh(mesh) = &self.geometries[instance.geometry as usize] {
-            let material = self.material_of(mesh, instance, hit);
-            if !scatters && !self.materials[material.0 as usize].specular_somewhere() {
-                return self.flat_surface(&mesh.surface, ray, hit, &instance.placement, material);
+            let id = self.material_of(mesh, instance, hit);
+            let material = &self.materials[id.0 as usize];
+            let placement = &instance.placement;
+            if !scatters && !material.specular_somewhere() {
+                return self.flat_surface(&mesh.surface, ray, hit, placement, id);
+            }
+            if !material.textured {
+                return self.bare_mesh_surface(&mesh.surface, ray, hit, placement, id);
             }
         }
         self.surface_here(ray, hit)
@@ -117,6 +122,19 @@ impl World {
         on_facet(&mesh.flat_facet(hit.primitive, hit.b), ray, hit, placement, material)
     }
 
+    /// Without coordinates.
+    #[inline(never)]
+    fn bare_mesh_surface(
+        &self,
+        mesh: &TriangleMesh,
+        ray: &Ray,
+        hit: &Hit,
+        placement: &Placement,
+        material: MaterialId,
+    ) -> Surface {
+        bent(&mesh.facet(hit.primitive, hit.b), ray, hit, placement, material)
+    }
+
     #[inline(never)]
     fn mesh_surface(
         &self,
@@ -127,13 +145,8 @@ impl World {
         material: MaterialId,
     ) -> Surface {
         let facet = mesh.facet(hit.primitive, hit.b);
-        let mut surface = on_facet(&facet, ray, hit, placement, material);
-        let LocalSurface { ng, ns, uv, dpdu, dpdv, .. } = facet.surface();
-        if ns != ng {
-            let bent = placement.unit_normal(ns);
-            surface.ns = if bent.dot(surface.ng) > 0.0 { bent } else { surface.ng };
-        }
-        surface.mesh_coordinates = Some(placed_coordinates(placement, Coordinates { uv, dpdu, dpdv }));
+        let mut surface = bent(&facet, ray, hit, placement, material);
+        surface.mesh_coordinates = Some(placed_coordinates(placement, facet.coordinates()));
         if !mesh.normals.is_empty() {
             let front = placement.normal(facet.ng()).dot(ray.dir) < 0.0;
             let lifted = placement.point(facet.shadow_terminator_point(front));
@@ -175,6 +188,18 @@ fn on_facet(facet: &Facet, ray: &Ray, hit: &Hit, placement: &Placement, material
         primitive: hit.primitive,
         lifted: None,
     }
+}
+
+/// The same with its shading normal.
+#[inline(always)]
+fn bent(facet: &Facet, ray: &Ray, hit: &Hit, placement: &Placement, material: MaterialId) -> Surface {
+    let mut surface = on_facet(facet, ray, hit, placement, material);
+    let ns = facet.shading_normal();
+    if ns != facet.ng() {
+        let bent = placement.unit_normal(ns);
+        surface.ns = if bent.dot(surface.ng) > 0.0 { bent } else { surface.ng };
+    }
+    surface
 }
 
 #[inline]

@@ -7,7 +7,7 @@
 use super::TriangleMesh;
 use crate::math::robust::gamma_f32;
 use crate::math::{DVec2, DVec3};
-use crate::optics::LocalSurface;
+use crate::optics::{Coordinates, LocalSurface};
 use rayon::prelude::*;
 
 /// A point of a triangle, and what both its surface and its shadow rays are computed from.
@@ -102,14 +102,14 @@ impl Facet<'_> {
 
     #[inline]
     pub fn surface(&self) -> LocalSurface {
-        let (uv, dpdu, dpdv) = self.coordinates();
+        let Coordinates { uv, dpdu, dpdv } = self.coordinates();
         let Facet { p, p_error, ng, .. } = *self;
         LocalSurface { p, p_error, ng, ns: self.shading_normal(), uv, dpdu, dpdv }
     }
 
     /// The interpolated normal, in the hemisphere of `ng`; `ng` where the mesh has none to interpolate.
     #[inline]
-    fn shading_normal(&self) -> DVec3 {
+    pub fn shading_normal(&self) -> DVec3 {
         if self.mesh.normals.is_empty() {
             return self.ng;
         }
@@ -122,11 +122,11 @@ impl Facet<'_> {
         }
     }
 
-    /// uv, ∂p/∂u and ∂p/∂v. Triangles that the map squeezes to a line or a point have no derivatives.
-    fn coordinates(&self) -> (DVec2, DVec3, DVec3) {
+    /// Triangles that the map squeezes to a line or a point have no derivatives.
+    pub fn coordinates(&self) -> Coordinates {
         let ([e1, e2], [b1, b2]) = (self.edges, self.b);
         if self.mesh.uvs.is_empty() {
-            return (DVec2::new(b1, b2), e1, e2);
+            return Coordinates { uv: DVec2::new(b1, b2), dpdu: e1, dpdv: e2 };
         }
         let [a, b, c] =
             self.mesh.triangles[self.triangle as usize].map(|v| self.mesh.uvs[v as usize].as_dvec2());
@@ -136,7 +136,9 @@ impl Facet<'_> {
         let det = f1.perp_dot(f2);
         let dpdu = (e1 * f2.y - e2 * f1.y) / det;
         let dpdv = (e2 * f1.x - e1 * f2.x) / det;
-        if dpdu.is_finite() && dpdv.is_finite() { (uv, dpdu, dpdv) } else { (uv, DVec3::ZERO, DVec3::ZERO) }
+        let sound = dpdu.is_finite() && dpdv.is_finite();
+        let (dpdu, dpdv) = if sound { (dpdu, dpdv) } else { (DVec3::ZERO, DVec3::ZERO) };
+        Coordinates { uv, dpdu, dpdv }
     }
 
     /// Where shadow rays from the point start: lifted, where the vertex normals spread, to the curved
