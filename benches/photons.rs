@@ -5,7 +5,7 @@
 //! emission. The third rate is that of camera paths through the same glass, which have the same to do at the
 //! end of each ray, and shade besides: shadow rays are counted as rays. All take turns, block by block, and
 //! the best time of each counts.
-//! `cargo bench --bench photons`
+//! `cargo bench --bench photons [-- gallery/pool.ron ...]`
 
 use std::hint::black_box;
 use std::path::Path;
@@ -16,6 +16,8 @@ use terrarium::plan::{Effect, Overrides, Plan, Request};
 use terrarium::render::{Options, Silent, render};
 use terrarium::scatter::Emission;
 
+/// Of the folder `scenes`, where the command line names no others.
+const SCENES: [&str; 3] = ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "terrarium.ron"];
 const PHOTONS: u64 = 200_000;
 const TURNS: u32 = 8;
 
@@ -25,7 +27,9 @@ fn main() {
         "{:34}{:>14}{:>16}{:>8}{:>16}{:>8}{:>12}",
         "", "photons", "plain rays", "ratio", "camera paths", "ratio", "rays/photon"
     );
-    for scene in ["yardstick/caustic-sphere.ron", "yardstick/cornell-glass.ron", "terrarium.ron"] {
+    let named: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).collect();
+    let scenes = if named.is_empty() { SCENES.map(str::to_owned).to_vec() } else { named };
+    for scene in &scenes {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(scene);
         let smaller = ["image.width=256".to_owned(), "image.height=256".to_owned()];
         let loaded = load(&path, &smaller).expect("the yardstick's scenes are valid");

@@ -7,7 +7,7 @@
 
 use super::map::PhotonMap;
 use crate::math::Vec3;
-use crate::scatter::Photon;
+use crate::scatter::Photons;
 
 /// A k-th distance from fewer pilot photons than this says little of the density.
 const FEWEST: f64 = 8.0;
@@ -27,7 +27,7 @@ pub struct Bandwidth {
 impl Bandwidth {
     /// `photons` is how many a pass is expected to store, `k` how many of them the first radius
     /// should hold; `min` and `max` bound it, metres.
-    pub fn new(pilot: Vec<Photon>, photons: f64, k: f64, min: f32, max: f32) -> Bandwidth {
+    pub fn new(pilot: impl Into<Photons>, photons: f64, k: f64, min: f32, max: f32) -> Bandwidth {
         let pilot = PhotonMap::new(pilot);
         // In an even field of density λ, πr_k²λ is k on average.
         let expected = k * pilot.len() as f64 / photons.max(1.0);

@@ -4,7 +4,7 @@ use super::boxes::{Bounds, Boxes};
 use super::photon::{NO_DIRECTION, Packed};
 use crate::math::Vec3;
 use crate::math::lanes::Array;
-use crate::scatter::Photon;
+use crate::scatter::{Photon, Photons, apart};
 use kiddo::kd_tree::KdTreeAccessor;
 use kiddo::{Eytzinger, FlatVec, KdTree, LeafStrategy};
 use rayon::prelude::*;
@@ -79,13 +79,15 @@ impl PhotonMap {
     /// The map of these photons. Those with a value that is not finite, or with power outside 0 to
     /// 1e38 W, are left out and counted. The same photons in the same order make the same map, whatever the
     /// number of threads.
-    pub fn new(mut photons: Vec<Photon>) -> PhotonMap {
+    pub fn new(photons: impl Into<Photons>) -> PhotonMap {
+        let photons = photons.into();
         let all = photons.len();
-        photons.retain(is_sound);
+        let photons = photons.only(is_sound);
         let (order, buckets) = partition(&photons);
         let leaves = buckets.iter().map(|len| len.div_ceil(LEAF)).sum();
-        let mut positions = vec![Positions::NONE; leaves];
-        let mut packed = vec![Packed::default(); leaves * LEAF];
+        let (mut positions, mut packed) = (apart(leaves), apart(leaves * LEAF));
+        positions.resize(leaves, Positions::NONE);
+        packed.resize(leaves * LEAF, Packed::default());
         let mut work = Vec::with_capacity(buckets.len());
         let (mut o, mut at, mut rest) = (&order[..], &mut positions[..], &mut packed[..]);
         for len in buckets {
@@ -129,8 +131,8 @@ impl PhotonMap {
     /// All that the map holds: under 32 bytes a photon, from some hundreds of photons on.
     pub fn memory_bytes(&self) -> usize {
         self.boxes.memory_bytes()
-            + self.positions.capacity() * size_of::<Positions>()
-            + self.packed.capacity() * size_of::<Packed>()
+            + self.positions.len() * size_of::<Positions>()
+            + self.packed.len() * size_of::<Packed>()
             + self.normals.capacity() * size_of::<u32>()
     }
 }
@@ -155,30 +157,32 @@ fn turned(p: Vec3) -> [f32; 3] {
 }
 
 /// Photons in the order of a kd-tree's buckets, and how many each bucket has.
-fn partition(photons: &[Photon]) -> (Vec<u32>, Vec<usize>) {
+fn partition(photons: &Photons) -> (Vec<u32>, Vec<usize>) {
     if photons.is_empty() {
         return (Vec::new(), Vec::new());
     }
-    let points: Vec<[f32; 3]> = photons.par_iter().map(|photon| turned(photon.position)).collect();
+    let mut points: Vec<[f32; 3]> = apart(photons.len());
+    photons.map_into(&mut points, |photon| turned(photon.position));
     let tree: Tree = Tree::builder()
         .with_parallel_construction_threshold(WORTH_A_THREAD)
         .build_from_slice(&points)
         .expect("coordinates are finite, and photons fewer than 2^32");
-    let order: Vec<u32> = tree.iter().map(|(index, _)| index).collect();
+    let mut order: Vec<u32> = apart(photons.len());
+    order.extend(tree.iter().map(|(index, _)| index));
     let len = |bucket| LeafStrategy::<f32, u32, Eytzinger, 3, BUCKET>::leaf_len(tree.leaves(), bucket);
     (order, (0..tree.leaf_count()).map(len).collect())
 }
 
 /// Divides a bucket's photons into leaves, all full but the last. They lie anywhere in memory, and are fetched once.
-fn fill(photons: &[Photon], order: &[u32], positions: &mut [Positions], packed: &mut [Packed]) {
+fn fill(photons: &Photons, order: &[u32], positions: &mut [Positions], packed: &mut [Packed]) {
     let mut places: Vec<Place> =
-        order.iter().map(|&index| Place { position: photons[index as usize].position, index }).collect();
+        order.iter().map(|&index| Place { position: photons.at(index as usize).position, index }).collect();
     divide(&mut places);
     for (leaf, at) in places.chunks(LEAF).zip(positions) {
         *at = Positions::of(leaf);
     }
     for (place, packed) in places.iter().zip(packed) {
-        *packed = Packed::new(&photons[place.index as usize], place.index as usize);
+        *packed = Packed::new(photons.at(place.index as usize), place.index as usize);
     }
 }
 

@@ -35,7 +35,7 @@ pub fn unit(x: u64) -> f64 {
 }
 
 /// [0, 1) from 32 bits.
-#[inline]
+#[inline(always)]
 fn unit32(x: u32) -> f64 {
     f64::from(x) * (1.0 / (1u64 << 32) as f64)
 }
@@ -118,10 +118,14 @@ impl Sequence {
     /// A point of [0, 1)²: any 2^k consecutive samples are a (0, k, 2)-net.
     #[inline]
     pub fn pair(&self) -> [f64; 2] {
+        self.scramble().pair(self.index)
+    }
+
+    /// All of it but the index.
+    #[inline]
+    pub fn scramble(&self) -> Scramble {
         let (a, b) = (mix(self.key), mix(self.key ^ 0x5851_f42d_4c95_7f2d));
-        let index = owen(self.index, (a >> 32) as u32);
-        let (x, y) = sobol(index);
-        [unit32(owen(x, a as u32)), unit32(owen(y, (b >> 32) as u32))]
+        Scramble { order: (a >> 32) as u32, x: a as u32, y: (b >> 32) as u32 }
     }
 
     /// A value of [0, 1), well distributed over the samples: the first of the pair.
@@ -133,9 +137,39 @@ impl Sequence {
     }
 }
 
+/// How a sequence is shuffled and scrambled, for those who want many of its samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Scramble {
+    order: u32,
+    x: u32,
+    y: u32,
+}
+
+impl Scramble {
+    /// What [`Sequence::pair`] is for this index.
+    #[inline]
+    pub fn pair(&self, index: u32) -> [f64; 2] {
+        let (x, y) = sobol(owen(index, self.order));
+        [unit32(owen(x, self.x)), unit32(owen(y, self.y))]
+    }
+
+    /// The pairs of this index and the next ones, as the first values and the second ones.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators of two arrays do not become lanes")]
+    pub fn pairs<const N: usize>(&self, index: u32) -> [[f64; N]; 2] {
+        // A loop, which becomes the lanes of whoever asks; a closure would be compiled for any machine.
+        let mut pairs = [[0.0; N]; 2];
+        for i in 0..N {
+            let (x, y) = sobol(owen(index.wrapping_add(i as u32), self.order));
+            (pairs[0][i], pairs[1][i]) = (unit32(owen(x, self.x)), unit32(owen(y, self.y)));
+        }
+        pairs
+    }
+}
+
 /// The first two Sobol' dimensions. The second's matrix is Pascal's triangle modulo 2, which is a
 /// tensor power, so that five exclusive-or steps multiply by it.
-#[inline]
+#[inline(always)]
 fn sobol(index: u32) -> (u32, u32) {
     let mut x = index;
     x ^= (x >> 1) & 0x5555_5555;
@@ -148,7 +182,7 @@ fn sobol(index: u32) -> (u32, u32) {
 
 /// Nested uniform scrambling in base 2: each bit is flipped by a hash of the bits above it.
 /// The permutation of the reversed word is Laine & Karras 2011 with Burley's 2020 constants.
-#[inline]
+#[inline(always)]
 fn owen(x: u32, seed: u32) -> u32 {
     let mut v = x.reverse_bits();
     v ^= v.wrapping_mul(0x3d20_adea);

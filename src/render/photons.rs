@@ -120,6 +120,9 @@ impl PhotonStage {
             self.emission.scatter(world, pass, self.budget.count.into());
         let factor = self.factor(pass);
         let map = PhotonMap::new(photons);
+        if self.one_map() {
+            self.emission.give_up_memory();
+        }
         PassPhotons { map, factor, emitted, ledger, health, seconds: began.elapsed().as_secs_f64() }
     }
 

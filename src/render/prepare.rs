@@ -140,13 +140,13 @@ impl Prepared {
     }
 }
 
-/// Bytes of a stored photon, at the least, while its map is made: it stands there twice when what threads have
-/// scattered is put together, or once, with its places in the tree and in the map.
-const BESIDE_EACH_OTHER: f64 = 2.0 * size_of::<Photon>() as f64;
+/// Bytes of a stored photon, at the least, while its map is made: it stands there as it was stored, and with its
+/// places in the tree and in the map.
+const BESIDE_EACH_OTHER: f64 = 1.6 * size_of::<Photon>() as f64;
 
-/// What making a map takes beside it as it is finished: photons as they were stored (48 bytes against 30), the
-/// tree that divides them, and their order.
-const MAKING: f64 = 3.5;
+/// What making a map takes beside the one that is gathered from: itself, and the places of photons in the tree that
+/// divides them, with their order. What they are stored in is kept from pass to pass.
+const MAKING: f64 = 2.2;
 
 /// What a thread's allocator has not given back of the photons that it has scattered: found as the middle of the
 /// repository's scenes of small maps (`benches/plan.py forecast`).

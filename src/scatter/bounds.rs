@@ -77,6 +77,11 @@ impl Bound {
         if apart > room * room || along < -room {
             return false;
         }
+        // From outside of the ball, the box around it leaves out next to nothing of what meets the ball ahead.
+        let ahead = along >= 0.0 || to.length_squared() <= room * room;
+        if ahead && (self.max - self.min).min_element() >= (2.0 - SLACK) * self.radius {
+            return true;
+        }
         // Beside the box along some axis; where the ray is parallel to its faces both are infinite or one is NaN.
         let (a, b) = ((self.min - ray.origin) / ray.dir, (self.max - ray.origin) / ray.dir);
         let (mut near, mut far) = (0.0f64, f64::INFINITY);
@@ -232,6 +237,23 @@ mod tests {
             culled += u32::from(!bound.may_meet(&beside));
         }
         assert!(culled > 20_000, "{culled}");
+    }
+
+    /// As from a lamp that touches a ball of glass.
+    #[test]
+    fn what_goes_away_from_a_ball_is_left_out_from_the_first_step() {
+        let mut random = Counter::new(3, Stage::Test, 0);
+        let ball = Bound::of_box(DVec3::NEG_ONE, DVec3::ONE).with_ball(DVec3::ZERO, 1.0);
+        for round in 0..10_000 {
+            let mut vector = || DVec3::from([(); 3].map(|()| random.value() - 0.5));
+            let axis = DVec3::AXES[round % 3] * if round % 2 == 0 { 1.0 } else { -1.0 };
+            let (beside, dir) = (vector(), vector().normalize());
+            let origin = axis * (1.0 + 1e-6 + beside.x.abs()) + (beside - axis * beside.dot(axis));
+            let away = if dir.dot(axis) < 0.0 { -dir } else { dir };
+            assert!(!ball.may_meet(&Ray { origin, dir: away }), "{origin} {away}");
+            let at = beside - origin;
+            assert!(ball.may_meet(&Ray { origin, dir: at.normalize() }), "{origin} {at}");
+        }
     }
 
     fn slabs(ray: &Ray, min: DVec3, max: DVec3) -> bool {

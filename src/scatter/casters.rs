@@ -1,5 +1,6 @@
 //! Casters: what makes caustics, as the bounds that photons are aimed at.
 
+use super::balls::UNEVEN;
 use super::bounds::Bound;
 use crate::build::{Instance, World};
 use crate::math::{Color, Placement};
@@ -45,7 +46,7 @@ pub(super) fn of_instance(world: &World, instance: &Instance) -> Option<Bound> {
     }
     // The placed ball lies within the ball of its longest half-axis, which this bounds.
     let placement = &instance.placement;
-    let stretch = round_scale(placement).map_or(placement.stretch(), |scale| scale * (1.0 + 1e-12));
+    let stretch = round_scale(placement).map_or(placement.stretch(), |scale| scale * (1.0 + UNEVEN));
     let (center, radius) = geometry.ball();
     Some(Bound::of_aabb(&aabb).with_ball(placement.point(center), radius * stretch))
 }
@@ -57,7 +58,7 @@ pub(super) fn round_scale(placement: &Placement) -> Option<f64> {
     let size = x.length_squared();
     let uneven = (size - y.length_squared()).abs() + (size - z.length_squared()).abs();
     let skew = x.dot(y).abs() + y.dot(z).abs() + z.dot(x).abs();
-    (uneven + skew <= 1e-12 * size).then(|| size.sqrt())
+    (uneven + skew <= UNEVEN * size).then(|| size.sqrt())
 }
 
 /// At most `MOST` bounds of the same things, neighbours together.

@@ -8,29 +8,39 @@
 //! takes its own stretch of each cell's well-distributed sequence, so that any pass can be computed
 //! alone, every pass is right in the mean, and the passes together are spread as evenly as one.
 
+mod apart;
+mod balls;
 mod bounds;
 mod casters;
 mod distant;
+mod four;
 mod ledger;
 mod path;
 mod photon;
+mod photons;
 mod pilot;
 mod projection;
+mod quads;
 mod reach;
+mod shelf;
 mod source;
 mod surfaces;
 mod window;
 
 use crate::build::World;
-use crate::math::random::{Items, Sequence, Stage, combine, mix, unit};
+use crate::math::random::{Items, Scramble, Sequence, Stage, combine, mix, unit};
 use crate::math::{Health, Ray};
 use crate::plan::Plan;
+pub use apart::apart;
 use bounds::Bound;
+use four::{FOUR, Quartet};
 pub use ledger::Ledger;
 use path::{Sink, Walk};
 pub use photon::Photon;
+pub use photons::Photons;
 use rayon::prelude::*;
 pub use reach::{Aimed, reached};
+use shelf::Shelf;
 use source::{Domain, Source, Start};
 use std::ops::Range;
 use std::sync::Arc;
@@ -69,6 +79,8 @@ pub struct Emission {
     cells: Vec<Cell>,
     found: Vec<pilot::Found>,
     emitters: usize,
+    /// For the photons of chunks.
+    shelf: Shelf,
     /// Set from outside: photons are of no use any more.
     halt: Option<Arc<AtomicBool>>,
 }
@@ -84,7 +96,7 @@ struct Cell {
 /// The photons of one pass.
 #[derive(Clone, Debug, Default)]
 pub struct Scattered {
-    pub photons: Vec<Photon>,
+    pub photons: Photons,
     pub ledger: Ledger,
     /// Samples taken; some of them found nothing to emit.
     pub emitted: u64,
@@ -161,6 +173,7 @@ impl Emission {
             targets,
             cells,
             found: Vec::new(),
+            shelf: Shelf::default(),
             halt: None,
             emitters: world.emitters.len(),
         };
@@ -211,19 +224,26 @@ impl Emission {
                     return Default::default();
                 }
                 let of = chunk * CHUNK..((chunk + 1) * CHUNK).min(emitted);
-                self.chunk(&walk, &runs, &starts, of, count as f64, Sink::default())
+                let sink = Sink { photons: self.shelf.take(), ..Sink::default() };
+                self.chunk(&walk, &runs, &starts, of, count as f64, sink)
             })
             .collect();
         let mut all =
             Scattered { emitted, by_light: vec![Ledger::default(); self.emitters], ..Default::default() };
-        all.photons.reserve_exact(sinks.iter().map(|(sink, _)| sink.photons.len()).sum());
-        for (sink, ledgers) in &sinks {
-            all.photons.extend_from_slice(&sink.photons);
+        let mut photons = Vec::with_capacity(sinks.len());
+        for (sink, ledgers) in sinks {
+            photons.push(sink.photons);
             all.health.add(&sink.health);
             ledgers.iter().for_each(|(light, ledger)| all.by_light[*light as usize].add(ledger));
         }
+        all.photons = Photons::of_chunks(photons, Some(self.shelf.clone()));
         all.by_light.iter().for_each(|ledger| all.ledger.add(ledger));
         all
+    }
+
+    /// Gives up the memory that is kept for the photons of later passes.
+    pub fn give_up_memory(&self) {
+        self.shelf.clear();
     }
 
     /// The rays that [`Emission::scatter`] traces, path by path: for measurements.
@@ -281,15 +301,15 @@ impl Emission {
         while i < of.end {
             let end = (starts[cell] + runs[cell].end - runs[cell].start).min(of.end);
             let weight = 1.0 / (count * self.cells[cell].share);
-            for index in runs[cell].start + (i - starts[cell])..runs[cell].start + (end - starts[cell]) {
-                let sequence = items.sequence(cell as u64, index as u32);
-                if let Some(mut start) = self.start(walk.world, cell, sequence)
-                    && self.may_arrive(&start)
-                {
+            let sequence = items.sequence(cell as u64, 0);
+            let scrambles = scrambles(sequence);
+            let first = runs[cell].start + (i - starts[cell]);
+            self.starts(walk.world, cell, &scrambles, first..first + (end - i), |index, start| {
+                if self.may_arrive(start) {
                     start.power *= weight;
-                    walk.follow(start, sequence, &mut sink);
+                    walk.follow(start, sequence.at(index as u32), &mut sink);
                 }
-            }
+            });
             i = end;
             let light = |cell: usize| self.sources[self.cells[cell].source as usize].emitter;
             let (here, next) = (light(cell), self.cells.get(cell + 1).map(|_| light(cell + 1)));
@@ -301,10 +321,28 @@ impl Emission {
         (sink, ledgers)
     }
 
-    fn start(&self, world: &World, cell: usize, sequence: Sequence) -> Option<Start> {
+    /// The photons of a cell that leave, of those with these indices.
+    #[inline]
+    fn starts(
+        &self,
+        world: &World,
+        cell: usize,
+        scrambles: &[Scramble; 2],
+        of: Range<u64>,
+        mut follow: impl FnMut(u64, &mut Start),
+    ) {
         let Cell { source, domain, .. } = &self.cells[cell];
-        let u = [sequence.dimension(WHERE[0]).pair(), sequence.dimension(WHERE[1]).pair()];
-        self.sources[*source as usize].sample(world, &self.targets, domain, u)
+        let source = &self.sources[*source as usize];
+        for first in of.clone().step_by(FOUR) {
+            let quartet = Quartet::new(source, &self.targets, domain, scrambles, first as u32);
+            for index in first..(first + FOUR as u64).min(of.end) {
+                let drawn = quartet.at((index - first) as usize);
+                let mut start = source.sample(world, &self.targets, domain, &drawn);
+                if let Some(start) = &mut start {
+                    follow(index, start);
+                }
+            }
+        }
     }
 
     /// What passes all mirrors and interfaces by would be traced for nothing.
@@ -320,6 +358,11 @@ impl Emission {
 
 /// Dimensions of a photon's values: where it starts; a path's own follow.
 const WHERE: [u64; 2] = [0, 1];
+
+fn scrambles(sequence: Sequence) -> [Scramble; 2] {
+    WHERE.map(|dimension| sequence.dimension(dimension).scramble())
+}
+
 const OFFSET: u64 = u64::MAX;
 
 const INDIRECT: u64 = 0x1d1e_c7ed;

@@ -68,11 +68,11 @@ const BOUNCE: u64 = 1 << 33;
 
 impl Walk<'_> {
     /// Follows one photon to its end.
-    pub fn follow(&self, start: Start, sequence: Sequence, sink: &mut Sink) {
+    pub fn follow(&self, start: &mut Start, sequence: Sequence, sink: &mut Sink) {
         sink.ledger.paths += 1;
         sink.health.photons += 1;
         sink.ledger.emitted += start.power;
-        let Start { ray, power, media, falloff, emitter, within, entry } = start;
+        let Start { ray, power, media, falloff, emitter, within, .. } = *start;
         let mut path = Path {
             ray,
             power,
@@ -85,7 +85,7 @@ impl Walk<'_> {
             wavelength: None,
             falloff,
             from: None,
-            entry,
+            entry: start.entry.take(),
         };
         loop {
             if !self.step(&mut path, emitter, within, sequence, sink) {

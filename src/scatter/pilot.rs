@@ -45,20 +45,19 @@ pub(super) fn explore(emission: &Emission, world: &World) -> Vec<Found> {
 fn found(emission: &Emission, walk: &Walk, cell: usize, each: u32) -> Found {
     let mut sink = Sink::default();
     let mut found = Found::default();
-    for i in 0..each {
-        let sequence = Sequence::new(emission.seed, Stage::Photons, cell as u64 | PILOT, i);
-        let Some(start) = emission.start(walk.world, cell, sequence) else { continue };
+    let sequence = Sequence::new(emission.seed, Stage::Photons, cell as u64 | PILOT, 0);
+    let scrambles = super::scrambles(sequence);
+    emission.starts(walk.world, cell, &scrambles, 0..each.into(), |i, start| {
         found.flux += start.power.element_sum();
-        if !emission.may_arrive(&start) {
-            continue;
+        if emission.may_arrive(start) {
+            sink.photons.clear();
+            sink.ledger = Default::default();
+            walk.follow(start, sequence.at(i as u32), &mut sink);
+            let arrived = sink.ledger.arrived.element_sum();
+            found.arrived += arrived;
+            found.square += arrived * arrived;
         }
-        sink.photons.clear();
-        sink.ledger = Default::default();
-        walk.follow(start, sequence, &mut sink);
-        let arrived = sink.ledger.arrived.element_sum();
-        found.arrived += arrived;
-        found.square += arrived * arrived;
-    }
+    });
     let n = f64::from(each);
     Found { flux: found.flux / n, arrived: found.arrived / n, square: found.square / n }
 }

@@ -100,7 +100,7 @@ fn refined<T>(
 fn lit(world: &World, source: &Source, beam: &Beam) -> Reach {
     match &source.kind {
         Kind::Spot { axis, cos_outer, .. } => beam.overlap(*axis, *cos_outer),
-        Kind::Shape { instance } => {
+        Kind::Quad { instance, .. } | Kind::Shape { instance } => {
             // A flat lamp sends nothing behind itself.
             let Some((normal, one_sided)) = flat(world, *instance) else { return Reach::Whole };
             let behind = beam.cell.corners().iter().all(|c| c.dot(normal) < -1e-12);

@@ -90,7 +90,7 @@ fn may_reach(world: &World, source: &Source, target: &Bound) -> bool {
             let both_reach_round = *cos_outer <= -cos;
             both_reach_round || to.dot(*axis) / distance >= cos_outer * cos - sin_outer * sin - 1e-12
         }
-        Kind::Shape { instance } => {
+        Kind::Quad { instance, .. } | Kind::Shape { instance } => {
             let Some((normal, true)) = projection::flat(world, *instance) else { return true };
             target.most(normal) >= source.bound.least(normal)
         }

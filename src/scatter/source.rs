@@ -2,12 +2,15 @@
 //! divided into. A sample of a domain estimates, in the mean over [0, 1)⁴, the power that the source
 //! sends through it.
 
+use super::balls::Round;
 use super::bounds::Bound;
 use super::casters;
+use super::four::Drawn;
+use super::quads::Flat;
 use crate::build::{Entry, Geometry, MediaSet, World};
 use crate::math::sampling::SphericalCell;
-use crate::math::{DVec2, DVec3, Frame, Placement, Ray, robust};
-use crate::optics::{EmitterKind, Shape, Sphere, spot_falloff};
+use crate::math::{DVec2, DVec3, Frame, Ray};
+use crate::optics::{EmitterKind, Shape, spot_falloff};
 
 /// What emits, with what does not change from photon to photon.
 #[derive(Clone, Debug)]
@@ -44,6 +47,10 @@ pub(super) enum Kind {
         outwards: bool,
         round: Option<Round>,
     },
+    Quad {
+        instance: u32,
+        flat: Flat,
+    },
     /// Any other placed shape.
     Shape {
         instance: u32,
@@ -58,30 +65,6 @@ pub(super) enum Kind {
         irradiance: DVec3,
     },
     Sky,
-}
-
-/// A ball that its placement leaves round.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Round {
-    /// Of the placement, and the inverse.
-    pub scale: f64,
-    pub inverse: f64,
-    /// In the world, metres; and the inverse of the radius there.
-    pub center: DVec3,
-    pub inverse_radius: f64,
-    /// Bound of the errors of its surface's points, metres.
-    pub p_error: f64,
-}
-
-impl Round {
-    fn of(shape: &Shape, sphere: &Sphere, placement: &Placement) -> Option<Round> {
-        let scale = casters::round_scale(placement)?;
-        let reach = sphere.center().abs() + sphere.radius();
-        let p_error = robust::placed_error_within(placement, reach, shape.p_error());
-        let center = placement.point(sphere.center());
-        let inverse_radius = 1.0 / (scale * sphere.radius());
-        Some(Round { scale, inverse: 1.0 / scale, center, inverse_radius, p_error })
-    }
 }
 
 /// A part of what a source emits.
@@ -128,7 +111,10 @@ impl Source {
                     Kind::Point { position, .. } | Kind::Spot { position, .. } => {
                         (Bound::of_point(*position), Some(world.media_at(*position)))
                     }
-                    Kind::Ball { instance, .. } | Kind::Shape { instance } | Kind::Mesh { instance } => {
+                    Kind::Ball { instance, .. }
+                    | Kind::Quad { instance, .. }
+                    | Kind::Shape { instance }
+                    | Kind::Mesh { instance } => {
                         let instance = &world.instances[*instance as usize];
                         flush_error = instance.flush_error;
                         let Some(bound) = casters::of_instance(world, instance) else { continue };
@@ -142,20 +128,12 @@ impl Source {
         sources
     }
 
-    /// A sample of a domain; `None` where nothing is emitted. `u`: two pairs of [0, 1).
+    /// A sample of a domain; `None` where nothing is emitted.
     #[inline]
-    pub fn sample(
-        &self,
-        world: &World,
-        targets: &[Bound],
-        domain: &Domain,
-        u: [[f64; 2]; 2],
-    ) -> Option<Start> {
+    pub fn sample(&self, world: &World, targets: &[Bound], domain: &Domain, drawn: &Drawn) -> Option<Start> {
+        let u = drawn.u;
         match domain {
-            Domain::Directions(cell) => {
-                let dir = cell.sample(u[0]);
-                self.towards(world, targets, dir, cell.solid_angle(), u[1])
-            }
+            Domain::Directions(cell) => self.towards(world, drawn, cell.solid_angle()),
             Domain::Rectangle { min, max } => self.through(*min, *max, u[0]),
             Domain::Sky { target, corner, side } => {
                 let square = [corner[0] + side * u[0][0], corner[1] + side * u[0][1]];
@@ -164,14 +142,8 @@ impl Source {
         }
     }
 
-    fn towards(
-        &self,
-        world: &World,
-        targets: &[Bound],
-        dir: DVec3,
-        solid_angle: f64,
-        u: [f64; 2],
-    ) -> Option<Start> {
+    fn towards(&self, world: &World, drawn: &Drawn, solid_angle: f64) -> Option<Start> {
+        let (dir, u) = (drawn.dir, drawn.u[1]);
         match &self.kind {
             Kind::Point { position, intensity, falloff } => {
                 let power = *intensity * solid_angle;
@@ -182,8 +154,9 @@ impl Source {
                 let power = *intensity * (share * solid_angle);
                 (share > 0.0).then(|| self.start(world, Ray { origin: *position, dir }, power))
             }
-            Kind::Ball { .. } => self.sent_by_ball(world, targets, dir, solid_angle, u),
-            Kind::Shape { instance } => self.sent_by_shape(world, targets, *instance, dir, solid_angle, u),
+            Kind::Ball { .. } => self.sent_by_ball(world, drawn, solid_angle),
+            Kind::Quad { flat, .. } => self.sent_by_quad(world, flat, drawn, solid_angle),
+            Kind::Shape { instance } => self.sent_by_shape(world, *instance, dir, solid_angle, u),
             Kind::Mesh { instance } => self.sent_by_mesh(world, *instance, dir, solid_angle, u),
             Kind::Parallel { .. } | Kind::Sky => None,
         }
@@ -217,11 +190,14 @@ impl Kind {
             }
             EmitterKind::Shape { instance } => {
                 let instance = *instance;
-                let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(instance) else {
+                if let Some(flat) = Flat::of(world, instance) {
+                    return vec![Kind::Quad { instance, flat }];
+                }
+                let Geometry::Shape(Shape::Sphere(_)) = world.geometry(instance) else {
                     return vec![Kind::Shape { instance }];
                 };
                 let binding = &world.bindings[world.instances[instance as usize].binding as usize];
-                let round = Round::of(shape, sphere, &world.instances[instance as usize].placement);
+                let round = Round::of(world, instance);
                 let mut kinds = vec![Kind::Ball { instance, outwards: true, round }];
                 if world.materials[binding[0].0 as usize].emits_back {
                     kinds.push(Kind::Ball { instance, outwards: false, round });

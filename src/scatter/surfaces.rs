@@ -1,84 +1,27 @@
-//! Emission from surfaces: Lₑ·|cosθ| per area and solid angle.
-//!
-//! From a sphere, placed by any affine map, by the lines that cross it: those of one direction are
-//! uniform over the disk perpendicular to it, in the sphere's own space as in the world, so that all
-//! photons of a direction weigh the same. From other surfaces by a point uniform in area.
+//! Emission from surfaces: Lₑ·|cosθ| per area and solid angle, here by a point uniform in area.
 
-use super::bounds::Bound;
-use super::source::{Kind, Round, Source, Start};
-use super::window::Window;
+use super::source::{Source, Start};
 use crate::build::{Geometry, World};
-use crate::math::{DVec2, DVec3, Frame, Placement, Ray, robust, sampling};
-use crate::optics::{EmitterKind, Material, MaterialId, Quad, Shape, ShapeHit, TexturePoint};
-use std::f64::consts::PI;
+use crate::math::{DVec3, Placement, Ray, robust, sampling};
+use crate::optics::{EmitterKind, Material, MaterialId, TexturePoint};
 
 /// A point on an emitting surface, in object space.
-struct Point {
-    p: DVec3,
+pub(super) struct Point {
+    pub p: DVec3,
     /// In the world, metres.
-    p_error: f64,
-    ng: DVec3,
-    texture: TexturePoint,
+    pub p_error: f64,
+    pub ng: DVec3,
+    pub texture: TexturePoint,
 }
 
 /// Errors of a point by which light starts off its lamp: its own, and as much of a surface that is known no better.
 const FLUSH: f64 = 4.0;
 
 impl Source {
-    /// Power: Lₑ·Ω·A⊥, with A⊥ = πR²·|det M|·|M⁻¹ω| the placed sphere's area as seen along ω, or that of
-    /// the window from which targets can be met.
-    pub(super) fn sent_by_ball(
-        &self,
-        world: &World,
-        targets: &[Bound],
-        dir: DVec3,
-        solid_angle: f64,
-        u: [f64; 2],
-    ) -> Option<Start> {
-        let Kind::Ball { instance: index, outwards, round } = self.kind else { return None };
-        let instance = &world.instances[index as usize];
-        let Geometry::Shape(shape @ Shape::Sphere(sphere)) = world.geometry(index) else { return None };
-        let placement = &instance.placement;
-        let along = placement.local_vector(dir);
-        let (unit, length) = match &round {
-            Some(Round { scale, inverse, .. }) => (along * *scale, *inverse),
-            None => {
-                let length = along.length();
-                (along / length, length)
-            }
-        };
-        let frame = Frame::around(unit);
-        let (d, share) = in_disk(&frame, targets, placement, round.as_ref(), u)?;
-        let height = (1.0 - d.length_squared()).max(0.0).sqrt();
-        let n = frame.to_world(d.extend(if outwards { height } else { -height }));
-        let material = material(world, world.bindings[instance.binding as usize][0]);
-        let p = sphere.center() + n * sphere.radius();
-        let texture = if material.emission.textured() {
-            // The sphere's own coordinates of the point, as a ray finds them.
-            let probe = Ray { origin: p + n * sphere.radius(), dir: -n };
-            TexturePoint::at(shape.surface(&probe, ShapeHit { t: sphere.radius(), face: 0 }).uv, p)
-        } else {
-            TexturePoint::at(Default::default(), p)
-        };
-        let p_error = match &round {
-            Some(round) => round.p_error,
-            None => robust::placed_error(placement, p, shape.p_error()),
-        };
-        let point = Point { p, p_error, ng: n, texture };
-        let across = share * sphere.radius() * sphere.radius() * placement.det().abs() * length;
-        let mut start = self.leaving(world, placement, material, &point, dir, solid_angle * across)?;
-        if !outwards && !instance.visible {
-            // Rays do not meet the lamp, but its light does: from outside only its first surface shines.
-            start.within = Some(index);
-        }
-        Some(start)
-    }
-
     /// Power: Lₑ·Ω·|cosθ| / pdf, with the density per area of the world.
     pub(super) fn sent_by_shape(
         &self,
         world: &World,
-        targets: &[Bound],
         index: u32,
         dir: DVec3,
         solid_angle: f64,
@@ -87,23 +30,13 @@ impl Source {
         let instance = &world.instances[index as usize];
         let Geometry::Shape(shape) = world.geometry(index) else { return None };
         let placement = &instance.placement;
-        let (u, share) = match shape {
-            Shape::Quad(quad) => {
-                let at = |u| placement.point(quad_point(quad, u));
-                let corner = at([0.0, 0.0]);
-                let edges = [at([1.0, 0.0]) - corner, at([0.0, 1.0]) - corner];
-                let window = Window::of_parallelogram(targets, corner, edges, dir)?;
-                (window.at(u).to_array(), window.area())
-            }
-            _ => (u, 1.0),
-        };
         let sample = shape.sample_area(u);
         let material = material(world, world.bindings[instance.binding as usize][0]);
         let cos = placement.unit_normal(sample.ng).dot(dir);
         if cos == 0.0 || (cos < 0.0 && !material.emits_back) {
             return None;
         }
-        let area = share * placement.area_factor(sample.ng) / sample.pdf;
+        let area = placement.area_factor(sample.ng) / sample.pdf;
         let point = Point {
             p: sample.p,
             p_error: robust::placed_error(placement, sample.p, shape.p_error()),
@@ -151,7 +84,7 @@ impl Source {
     }
 
     /// The photon of a point of the surface: `extent` in m²·sr takes radiance to power.
-    fn leaving(
+    pub(super) fn leaving(
         &self,
         world: &World,
         placement: &Placement,
@@ -165,46 +98,38 @@ impl Source {
         if power == DVec3::ZERO {
             return None;
         }
-        let (p, p_error) = (placement.point(point.p), point.p_error);
+        let p = placement.point(point.p);
         let ng = placement.unit_normal(point.ng);
+        Some(self.off(world, p, point.p_error, ng, dir, power, material.transmits()))
+    }
+
+    /// The photon that starts at `p`, known to within `p_error` metres.
+    #[expect(clippy::too_many_arguments, reason = "one photon's all, from two places")]
+    #[inline]
+    pub(super) fn off(
+        &self,
+        world: &World,
+        p: DVec3,
+        p_error: f64,
+        ng: DVec3,
+        dir: DVec3,
+        power: DVec3,
+        transmits: bool,
+    ) -> Start {
         // Beyond a ceiling that may coincide with the lamp's surface: where shadow rays end as well.
         let mut start = self.start(world, Ray::leaving(p, FLUSH * p_error, ng, dir), power);
         // What shines and transmits has its light from its own surface, across no gap.
         let flush_error = self.flush_error;
-        if flush_error > 0.0 && !material.transmits() {
+        if flush_error > 0.0 && !transmits {
             let flush = world.departure(&Ray { origin: p, dir }, [p_error, flush_error], ng, &start.media);
             if let Some(departure) = flush {
                 (start.ray, start.media, start.entry) = (departure.ray, departure.media, departure.entry);
             }
         }
-        Some(start)
+        start
     }
 }
 
-/// A point of the unit disk that is the sphere as seen along `frame.n`, and the area that it stands for.
-fn in_disk(
-    frame: &Frame,
-    targets: &[Bound],
-    placement: &Placement,
-    round: Option<&Round>,
-    u: [f64; 2],
-) -> Option<(DVec2, f64)> {
-    if let Some(round) = round {
-        let turned = |v: DVec3| placement.vector(v) * round.inverse;
-        let seen = Frame { s: turned(frame.s), t: turned(frame.t), n: turned(frame.n) };
-        let window = Window::of_ball(targets, round, &seen)?;
-        if window.area() < PI {
-            let d = window.at(u);
-            return (d.length_squared() < 1.0).then(|| (d, window.area()));
-        }
-    }
-    Some((sampling::disk(u), PI))
-}
-
-fn quad_point(quad: &Quad, u: [f64; 2]) -> DVec3 {
-    Shape::Quad(*quad).sample_area(u).p
-}
-
-fn material(world: &World, id: MaterialId) -> &Material {
+pub(super) fn material(world: &World, id: MaterialId) -> &Material {
     &world.materials[id.0 as usize]
 }

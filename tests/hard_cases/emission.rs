@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 use terrarium::math::sampling::SphericalCell;
 use terrarium::math::{DVec2, DVec3, Frame};
-use terrarium::scatter::{Aim, Photon, Scattered, Store};
+use terrarium::scatter::{Aim, Photons, Scattered, Store};
 
 const POINT: &str = r#""a": point(position: (0, 0, 0), intensity: 3)"#;
 const SPHERE: &str = r#""a": sphere(center: (0, 0, 0), radius: 0.5, radiance: 3)"#;
@@ -71,7 +71,7 @@ fn s02_photon_directions() {
 
 /// The faces of the icosahedron, halved none to three times, and each of these cells in sixteen equal parts: the power in
 /// the fullest of the sixteen over that in the emptiest, each summed over all cells.
-fn laid_over(photons: &[Photon]) -> [f64; 4] {
+fn laid_over(photons: &Photons) -> [f64; 4] {
     let planes = |cells: &[SphericalCell], step| -> Vec<[DVec3; 3]> {
         cells.iter().step_by(step).map(SphericalCell::planes).collect()
     };
@@ -84,7 +84,7 @@ fn laid_over(photons: &[Photon]) -> [f64; 4] {
     });
     let within = |planes: &[DVec3; 3], dir: DVec3| planes.iter().all(|n| n.dot(dir) >= 0.0);
     let mut parts = [[0.0f64; 16]; 4];
-    for photon in photons {
+    for photon in photons.iter() {
         let dir = -photon.wi.as_dvec3();
         // On an edge to the last bit it may be in none.
         let mut cell = faces.iter().position(|face| within(face, dir)).unwrap_or(0);
@@ -218,7 +218,7 @@ fn h34_power_ledger() {
             let arrived: DVec3 = pass.photons.iter().map(|p| p.power.as_dvec3()).sum();
             single = single.max((arrived / l.arrived - 1.0).abs().max_element());
             wrong += u64::from(l.photons != pass.photons.len() as u64);
-            for p in &pass.photons {
+            for p in pass.photons.iter() {
                 let sound = p.wi.dot(p.normal) > 0.0 && (p.wi.length() - 1.0).abs() < 1e-6;
                 wrong += u64::from(!(sound && p.power.min_element() >= 0.0));
             }

@@ -85,7 +85,7 @@ fn h29_fewer_photons_than_k() {
         let query = Query { p: Vec3::ZERO, n: Vec3::Y, radius };
         for count in [0, 1, 49] {
             let near = floor(count, 5).into_iter().map(|p| Photon { position: p.position * 0.3, ..p });
-            let map = PhotonMap::new(near.collect());
+            let map = PhotonMap::new(near.collect::<Vec<_>>());
             let gathered = map.gather(&query, Kernel::Disc, |_| Color::splat(brdf));
             let expected = f64::from(brdf) * count as f64 / (PI * 0.25);
             let what = format!("{count} photons where k is 50: Φ·f/(π r²max) each");

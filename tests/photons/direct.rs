@@ -176,3 +176,29 @@ fn of_a_disk() {
         sum
     });
 }
+
+/// All of a rectangle's light, π·L·A a side, however thin it is and however far from the origin.
+#[test]
+fn of_thin_rectangles_far_away() {
+    let within = r#"(shape: sphere(radius: 2e5), material: "white")"#;
+    let quad = |corner: &str, u: f64, v: [f64; 2], radiance: f64| {
+        format!(
+            r#""a": quad(corner: {corner}, edge_u: (0, 0, {u:e}), edge_v: ({:e}, {:e}, 0), radiance: {radiance:e}, two_sided: true)"#,
+            v[0], v[1]
+        )
+    };
+    let thin: [(&str, f64, [f64; 2]); 4] = [
+        ("(3, 4, 0)", 0.5, [0.3, 0.4]),
+        ("(30, 40, 0)", 0.05, [8e-15, -6e-15]),
+        ("(1e5, 1e4, 7)", 0.5, [0.0, 1e-10]),
+        ("(1e5, 1e4, 7)", 0.5, [6e-14, 8e-14]),
+    ];
+    for (corner, u, v) in thin {
+        let area = u * v[0].hypot(v[1]);
+        let lab = lab("", &quad(corner, u, v, 1.0 / area), within);
+        let pass = &lab.passes(Store::Direct, Aim::Scene, 1, 100_000)[0];
+        let off = pass.ledger.emitted.x / (2.0 * PI) - 1.0;
+        assert!(off.abs() < 2e-3, "{corner} {v:?}: off by {off}");
+        assert!(pass.ledger.stored.x / pass.ledger.emitted.x > 0.999, "{corner} {v:?}");
+    }
+}

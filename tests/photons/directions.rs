@@ -64,7 +64,7 @@ fn chi2_limit(degrees: f64) -> f64 {
 /// limit at p = 1e-3. `crossing`: from a photon's place and its direction.
 pub(crate) fn judge_places(scene: &Lab, n: u64, crossing: impl Fn(DVec3, DVec3) -> DVec2) -> (f64, f64) {
     let mut found = [[0.0f64; 2]; 64];
-    for photon in &scene.passes(Store::Direct, Aim::Scene, 1, n)[0].photons {
+    for photon in scene.passes(Store::Direct, Aim::Scene, 1, n)[0].photons.iter() {
         let d = crossing(scene.place(photon), -photon.wi.as_dvec3().normalize());
         let ring = ((8.0 * d.length_squared()) as usize).min(7);
         let sector = ((8.0 * (d.y.atan2(d.x) / TAU + 0.5)) as usize).min(7);
@@ -84,7 +84,7 @@ pub(crate) fn judge(scene: &Lab, n: u64, intensity: impl Fn(DVec3) -> f64) -> Ju
     let mut found = vec![[0.0f64; 2]; bins.len()];
     let mut moment = DVec3::ZERO;
     let mut total = 0.0;
-    for photon in &pass.photons {
+    for photon in pass.photons.iter() {
         let dir = -photon.wi.as_dvec3();
         let local = turn.transpose() * dir;
         let bin = planes.iter().position(|b| b.iter().all(|n| n.dot(local) >= 0.0)).unwrap_or(0);

@@ -39,7 +39,7 @@ fn a_directional_light_is_even_and_of_one_direction() {
     let pass = &scene.passes(Store::Direct, Aim::Scene, 1, 150_000)[0];
     let n = 12;
     let mut sums = vec![[0.0; 2]; n * n];
-    for photon in &pass.photons {
+    for photon in pass.photons.iter() {
         assert!((photon.wi.as_dvec3() + sun.normalize()).length() < 1e-6);
         let p = scene.place(photon);
         let bin = |x: f64| (((x + 2.0) / 4.0 * n as f64) as usize).min(n - 1);

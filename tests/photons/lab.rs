@@ -5,7 +5,7 @@ use terrarium::build::{World, build};
 use terrarium::description::{Format, load_str};
 use terrarium::math::{DVec3, Vec3};
 use terrarium::plan::{Plan, Request};
-use terrarium::scatter::{Aim, Emission, Photon, Scattered, Store};
+use terrarium::scatter::{Aim, Emission, Photon, Photons, Scattered, Store};
 
 pub struct Lab {
     pub world: World,
@@ -76,7 +76,7 @@ pub fn estimate(values: impl IntoIterator<Item = f64>) -> Estimate {
 /// Power of the photons that `keep` keeps, in the red channel, pass by pass.
 pub fn power(passes: &[Scattered], keep: impl Fn(&Photon) -> bool) -> Estimate {
     let sum =
-        |photons: &[Photon]| photons.iter().filter(|p| keep(p)).map(|p| f64::from(p.power.x)).sum::<f64>();
+        |photons: &Photons| photons.iter().filter(|p| keep(p)).map(|p| f64::from(p.power.x)).sum::<f64>();
     estimate(passes.iter().map(|pass| sum(&pass.photons)))
 }
 

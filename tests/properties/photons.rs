@@ -52,7 +52,7 @@ fn the_account_of_power_balances() {
             let scattered = emission.scatter(&world, 0, 2000);
             let off = scattered.ledger.imbalance();
             prop_assert!(off < 1e-9, "{:?}: {} of {:?}", store, off, scattered.ledger);
-            for photon in &scattered.photons {
+            for photon in scattered.photons.iter() {
                 let sound = photon.position.is_finite()
                     && photon.power.is_finite()
                     && photon.power.min_element() >= 0.0

@@ -67,7 +67,7 @@ fn a_step_and_a_wall_do_not_leak_onto_the_floor() {
 fn photons_of_one_plane_tell_their_faces() {
     let lit = [(Face::Opaque, 10_000), (Face::Outer, 20_000), (Face::Inner, 40_000)];
     let on = |(face, count)| floor(count, 7).into_iter().map(move |p| Photon { face, ..p });
-    let map = PhotonMap::new(lit.into_iter().flat_map(on).collect());
+    let map = PhotonMap::new(lit.into_iter().flat_map(on).collect::<Vec<_>>());
     for (face, count) in lit {
         let query = Query { p: Vec3::new(0.5, 0.0, 0.5), n: Vec3::Y, radius: Radius::Fixed(0.2) };
         let e = map.gather_seen(&query, Kernel::Disc, |hit| hit.face == face, |_| Color::ONE).radiance.x;
@@ -87,7 +87,7 @@ fn a_sphere_loses_nothing_by_its_curvature() {
         let s = (1.0 - z * z).sqrt();
         Vec3::new((s * libm::cos(phi)) as f32, z as f32, (s * libm::sin(phi)) as f32)
     };
-    let photons = (0..count).map(|_| on_sphere(random.pair())).map(|n| photon(n, n)).collect();
+    let photons: Vec<Photon> = (0..count).map(|_| on_sphere(random.pair())).map(|n| photon(n, n)).collect();
     let map = PhotonMap::new(photons);
     let truth = count as f32 / (4.0 * std::f32::consts::PI);
     let (mut sum, mut gathered) = (0.0, 0);

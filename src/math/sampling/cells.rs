@@ -6,6 +6,9 @@
 //! with the moved corner found by a reflection as Peters does (BRDF Importance Sampling for
 //! Polygonal Lights, TOG 40(4), 2021). After n halvings a cell has 4π/(20·2ⁿ) sr exactly.
 
+use super::{OF_A_CELL, sin_cos};
+use crate::math::doubles::{Doubles, Wide, Wide3};
+use crate::math::lanes::Portable;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -67,7 +70,7 @@ impl SphericalCell {
             SphericalCell::new([c, a, b], self.solid_angle)
         };
         let [from, apex, to] = turned.corners;
-        let middle = turned.moved_corner(0.5).normalize();
+        let middle = turned.moved_corner(Portable, Wide::splat(Portable, 0.5)).to_vectors()[0].normalize();
         let half = 0.5 * self.solid_angle;
         [SphericalCell::new([from, apex, middle], half), SphericalCell::new([middle, apex, to], half)]
     }
@@ -91,45 +94,41 @@ impl SphericalCell {
     }
 
     /// A direction, uniform over the cell. `u` in [0, 1)².
-    #[inline]
     pub fn sample(&self, u: [f64; 2]) -> DVec3 {
-        let b = self.corners[1];
-        let moved = self.moved_corner(u[0]);
+        let [u, v] = u.map(|u| Wide::splat(Portable, u));
+        self.sample_four(Portable, [u, v]).to_vectors()[0]
+    }
+
+    /// Four such directions.
+    #[inline(always)]
+    pub fn sample_four<L: Doubles>(&self, l: L, [u, v]: [Wide<L>; 2]) -> Wide3<L> {
+        let (one, two) = (Wide::splat(l, 1.0), Wide::splat(l, 2.0));
+        let (half, three_halves) = (Wide::splat(l, 0.5), Wide::splat(l, 1.5));
+        let b = Wide3::splat(l, self.corners[1]);
+        let moved = self.moved_corner(l, u);
         // A point of the arc from b to the moved corner, uniform in 1 − cosine.
         let chord = moved - b;
-        let one_minus_cos = 0.5 * chord.length_squared();
+        let one_minus_cos = half * chord.length_squared();
         let tangent = chord + b * one_minus_cos;
-        let s = u[1] * one_minus_cos;
+        let s = v * one_minus_cos;
         // |tangent|² = (1 − cos)(1 + cos).
-        let reach = (u[1] * (2.0 - s) / (2.0 - one_minus_cos)).max(0.0).sqrt();
-        let dir = b * (1.0 - s) + tangent * reach;
+        let reach = (v * (two - s) / (two - one_minus_cos)).max(Wide::splat(l, 0.0)).sqrt();
+        let dir = b * (one - s) + tangent * reach;
         // Of unit length but for rounding, which one of Newton's steps takes off without a root or a division.
-        dir * (1.5 - 0.5 * dir.length_squared())
+        dir * (three_halves - half * dir.length_squared())
     }
 
-    /// The point of the arc from the first corner to the third up to which the triangle with the
+    /// The points of the arc from the first corner to the third up to which the triangle with the
     /// second has the share `u` of the solid angle.
-    #[inline]
-    fn moved_corner(&self, u: f64) -> DVec3 {
-        let [a, _, c] = self.corners;
-        let (sin, cos) = small_sin_cos(0.5 * u * self.solid_angle);
-        let h = a * (self.det * cos - self.around[0] * sin) + c * (self.around[1] * sin);
-        h * (2.0 * a.dot(h) / h.length_squared()) - a
+    #[inline(always)]
+    fn moved_corner<L: Doubles>(&self, l: L, u: Wide<L>) -> Wide3<L> {
+        let (a, c) = (Wide3::splat(l, self.corners[0]), Wide3::splat(l, self.corners[2]));
+        let (det, along, around) =
+            (Wide::splat(l, self.det), Wide::splat(l, self.around[0]), Wide::splat(l, self.around[1]));
+        let (sin, cos) = sin_cos(l, Wide::splat(l, 0.5 * self.solid_angle) * u, OF_A_CELL);
+        let h = a * (det * cos - along * sin) + c * (around * sin);
+        h * (Wide::splat(l, 2.0) * a.dot(h) / h.length_squared()) - a
     }
-}
-
-/// Sine and cosine to full precision for 0 ≤ x ≤ π/10, by their series.
-#[inline]
-fn small_sin_cos(x: f64) -> (f64, f64) {
-    // −1/(k·(k+1)) by multiplication: a chain of divisions would take longer than all else of a sample.
-    const fn part(k: u32) -> f64 {
-        -1.0 / (k * (k + 1)) as f64
-    }
-    let y = x * x;
-    let series = |parts: [f64; 5]| parts.iter().rev().fold(1.0, |rest, part| 1.0 + part * y * rest);
-    let sin = series(const { [part(2), part(4), part(6), part(8), part(10)] });
-    let cos = 1.0 - 0.5 * y * series(const { [part(3), part(5), part(7), part(9), part(11)] });
-    (x * sin, cos)
 }
 
 /// (0, ±1, ±φ) and its cyclic permutations, of unit length, φ the golden ratio.

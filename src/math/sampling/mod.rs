@@ -10,6 +10,7 @@ mod discrete;
 pub use cells::SphericalCell;
 pub use discrete::{AliasTable, Cdf, Choice, pick};
 
+use super::doubles::{Doubles, Wide};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, TAU};
 
@@ -29,6 +30,46 @@ pub fn disk(u: [f64; 2]) -> DVec2 {
         if x.abs() > y.abs() { (x, FRAC_PI_4 * (y / x)) } else { (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)) };
     let (sin, cos) = libm::sincos(angle);
     DVec2::new(r * cos, r * sin)
+}
+
+/// Four such points.
+#[inline(always)]
+pub fn disk_four<L: Doubles>(l: L, [u, v]: [Wide<L>; 2]) -> [Wide<L>; 2] {
+    let (one, two) = (Wide::splat(l, 1.0), Wide::splat(l, 2.0));
+    let (x, y) = (two * u - one, two * v - one);
+    let aslant = y.max(-y).lt(x.max(-x));
+    let (r, short) = (aslant.select(x, y), aslant.select(y, x));
+    let ratio = (short / r).min(one);
+    let (sin, cos) = sin_cos(l, Wide::splat(l, FRAC_PI_4) * ratio, OF_AN_EIGHTH);
+    // In the middle the ratio is not a number, and was taken as 1.
+    [r * aslant.select(cos, sin), r * aslant.select(sin, cos)]
+}
+
+/// How many terms of the series give sine and cosine to full precision up to π/4, and up to π/10.
+const OF_AN_EIGHTH: usize = 8;
+const OF_A_CELL: usize = 5;
+
+/// Sine and cosine of small angles by so many terms of their series.
+#[inline(always)]
+fn sin_cos<L: Doubles>(l: L, x: Wide<L>, terms: usize) -> (Wide<L>, Wide<L>) {
+    // −1/(k·(k+1)) by multiplication: a chain of divisions would take longer than all else of a sample.
+    const fn parts(first: u32) -> [f64; OF_AN_EIGHTH] {
+        let (mut parts, mut i) = ([0.0; OF_AN_EIGHTH], 0);
+        while i < OF_AN_EIGHTH {
+            let k = first + 2 * i as u32;
+            parts[i] = -1.0 / (k * (k + 1)) as f64;
+            i += 1;
+        }
+        parts
+    }
+    let (of_sin, of_cos) = const { (parts(2), parts(3)) };
+    let (one, y) = (Wide::splat(l, 1.0), x * x);
+    let (mut sin, mut cos) = (one, one);
+    for i in (0..terms).rev() {
+        sin = one + Wide::splat(l, of_sin[i]) * y * sin;
+        cos = one + Wide::splat(l, of_cos[i]) * y * cos;
+    }
+    (x * sin, one - Wide::splat(l, 0.5) * y * cos)
 }
 
 /// Density cosθ/π around +z.

@@ -198,3 +198,38 @@ fn large_alias_tables_agree_with_their_weights() {
         assert!(weights[i] > 0.0 || *g == 0.0);
     }
 }
+
+#[test]
+fn four_points_of_the_disk_are_those_that_one_by_one_would_be() {
+    use crate::math::lanes::{Lanes, Machine, Work};
+
+    struct Disks<'a>(&'a [[f64; 2]; 4]);
+
+    impl Work for Disks<'_> {
+        type Output = [[f64; 4]; 2];
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> [[f64; 4]; 2] {
+            let l = l.doubles();
+            let [a, b, c, d] = self.0;
+            let [x, y] = disk_four(
+                l,
+                [Wide::of(l, &[a[0], b[0], c[0], d[0]]), Wide::of(l, &[a[1], b[1], c[1], d[1]])],
+            );
+            [x.to_array(), y.to_array()]
+        }
+    }
+
+    let edges = [0.0, 0.25, 0.5, 0.75, 1.0 - f64::EPSILON];
+    let mut points: Vec<[f64; 2]> = edges.iter().flat_map(|&x| edges.map(|y| [x, y])).collect();
+    points.extend(values(9).take(10_000));
+    for four in points.chunks_exact(4) {
+        let four = [four[0], four[1], four[2], four[3]];
+        let [best, plain] = [Machine::detect(), Machine::portable()].map(|m| m.run(Disks(&four)));
+        assert_eq!(best, plain);
+        for (i, u) in four.into_iter().enumerate() {
+            let apart = disk(u).distance(DVec2::new(best[0][i], best[1][i]));
+            assert!(apart < 4e-16, "{u:?}: {apart}");
+        }
+    }
+}
