@@ -88,7 +88,7 @@ pub(super) fn assemble(
     };
     let emitters_in_glass = lights.emitters.iter().map(in_glass).collect();
     let sights = Sights::new(&placed.instances, &placed.geometries, &bounds, &all_bounds, &lights.emitters);
-    let world = World {
+    let mut world = World {
         origin,
         vista: Vista::new(&camera, &bounds),
         camera,
@@ -113,6 +113,10 @@ pub(super) fn assemble(
         ambient: rgb(&scene.ambient),
         object_names: placed.object_names,
     };
+    if world.move_points_off_faces() {
+        let World { instances, geometries, emitters, .. } = &world;
+        world.sights = Sights::new(instances, geometries, &bounds, &all_bounds, emitters);
+    }
     Ok(Built { world, warnings, files })
 }
 

@@ -21,6 +21,7 @@ mod meshes;
 mod nearby;
 pub mod obj;
 mod objects;
+mod points;
 mod precision;
 mod scatter;
 mod shading;

@@ -145,8 +145,9 @@ impl Prepared {
 const BESIDE_EACH_OTHER: f64 = 1.6 * size_of::<Photon>() as f64;
 
 /// What making a map takes beside the one that is gathered from: itself, and the places of photons in the tree that
-/// divides them, with their order. What they are stored in is kept from pass to pass.
-const MAKING: f64 = 2.2;
+/// divides them, with their order; and what allocators come to keep of the tree's own buffers over tens of passes.
+/// What photons are stored in is kept from pass to pass.
+const MAKING: f64 = 3.2;
 
 /// What a thread's allocator has not given back of the photons that it has scattered: found as the middle of the
 /// repository's scenes of small maps (`benches/plan.py forecast`).

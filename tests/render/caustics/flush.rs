@@ -73,6 +73,50 @@ fn a_lamp_flush_with_glass_shines_through_its_face_as_one_just_above_it() {
     assert!(immersed < 0.55 * above, "{immersed}, and {above} from above");
 }
 
+/// On a face that looks up, down or to the side, of a box and of a mesh, on an edge, and where glass and water touch.
+#[test]
+fn a_lamp_without_extent_on_a_face_of_glass_is_outside() {
+    let dir = folder();
+    let low = r#"(shape: box(size: (0.8, 0.2, 0.8), center: (0, 0.1, 0)), material: "glass")"#;
+    let water = r#"(shape: box(size: (1, 0.25, 1), center: (0, 0.325, 0)), material: "water -1")"#;
+    let bar = r#"(shape: box(size: (0.2, 0.1, 1), center: (0, 0.45, 0)), material: "glass")"#;
+    let corners = [(-0.4, 0.2), (0.4, 0.2), (0.4, 0.0), (-0.4, 0.0)];
+    let vertices = [0.4, -0.4].into_iter().flat_map(|z| corners.map(|(x, y)| DVec3::new(x, y, z)));
+    let faces = [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [2, 3, 7, 6], [1, 2, 6, 5], [3, 0, 4, 7]];
+    let block = Obj { vertices: vertices.collect(), faces: faces.map(Vec::from).to_vec(), ..Obj::default() };
+    block.write(&dir.path().join("block.obj"));
+    let block = r#"(shape: mesh(path: "block.obj", smooth: false), material: "glass")"#;
+    let lit = |lamp: &str, [x, y, z]: [f64; 3], objects: &[&str]| {
+        let lights = match lamp {
+            "point" => format!(r#""l": point(position: ({x}, {y}, {z}), intensity: 1)"#),
+            _ => format!(
+                r#""l": spot(position: ({x}, {y}, {z}), target: (0, 0, 0), intensity: 1, outer_deg: 60)"#
+            ),
+        };
+        let objects: Vec<String> = objects.iter().map(|&object| object.to_owned()).collect();
+        floor(dir.path(), &lights, &objects).passes(24).render().mean()
+    };
+    let cases: [(&[&str], [f64; 3], [f64; 3]); 7] = [
+        (&[low], [0.05, 0.2, 0.02], [0.0, 1.0, 0.0]),
+        (&[block], [0.05, 0.2, 0.02], [0.0, 1.0, 0.0]),
+        (&[GLASS], [0.05, 0.5, 0.02], [0.0, 1.0, 0.0]),
+        (&[GLASS], [0.05, 0.4, 0.02], [0.0, -1.0, 0.0]),
+        (&[bar], [0.1, 0.45, 0.02], [1.0, 0.0, 0.0]),
+        (&[bar], [0.1, 0.5, 0.02], [1.0, 1.0, 0.0]),
+        (&[low, water], [0.05, 0.2, 0.02], [0.0, 1.0, 0.0]),
+    ];
+    for (objects, at, outwards) in cases {
+        for lamp in ["point", "spot"] {
+            let beside = std::array::from_fn(|axis| at[axis] + 5e-4 * outwards[axis]);
+            let (flush, beside) = (lit(lamp, at, objects), lit(lamp, beside, objects));
+            assert!(
+                (flush / beside - 1.0).abs() < 0.03,
+                "{lamp} {at:?} {objects:?}: {flush}, beside it {beside}"
+            );
+        }
+    }
+}
+
 /// Water in glass, both flush with the lamp: the light crosses the face of what counts more.
 #[test]
 fn a_lamp_flush_with_two_media_shines_through_the_upper_one() {
